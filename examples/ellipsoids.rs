@@ -15,7 +15,8 @@ use std::f64::consts::TAU;
 use std::fs;
 
 use affine_runtime::analysis::{
-    BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_panel,
+    BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_diagram,
+    relative_equilibrium,
 };
 use affine_runtime::dual::Dual;
 use affine_runtime::frames::Matrix;
@@ -97,7 +98,7 @@ fn rational<T: Scalar>(numerator: i32, denominator: i32) -> T {
 /// their distance: this many leave less than a rounding for axes in proportions up to ten.
 const DUPLICATIONS: usize = 6;
 /// Steps of Newton's iteration for a sum of roots: of the first, and of those that are nearly equal.
-const NEWTON: [usize; 2] = [6, 3];
+const NEWTON: [usize; 2] = [8, 4];
 
 /// `R_F(x, y, z)`: the integral of `1/2 ((t + x)(t + y)(t + z))^(-1/2)` over positive `t`, by duplication (B. C. Carlson,
 /// Numer. Algorithms 10 (1995) 13, algorithm 1; the series is DLMF 19.36.1). It is given `x + y + z`, `xy + yz + zx` and `xyz`,
@@ -156,6 +157,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let distance = (back.phi() - there.phi().transpose()).norm();
     println!("Dedekind: |phi'(10) - phi(10)^T| = {distance:.1e} of motions from phi(0) and phi(0)^T");
     figures_of_equilibrium()?;
+    riemann_ellipsoids()?;
     println!("pictures: output/ellipsoids.svg, output/ellipsoid_branches.svg");
     Ok(())
 }
@@ -196,8 +198,92 @@ fn figures_of_equilibrium() -> Result<(), Box<dyn std::error::Error>> {
     let elongated = Continuation::new(&turn, (0.0, 0.5), 0.08, along).switch(jacobi, 0.04)?;
     let stable = elongated.points.iter().filter(|point| point.stability.verdict == StabilityVerdict::Stable);
     println!("  ellipsoids of Jacobi: {} of {} points stable", stable.count(), elongated.points.len());
-    let panel = branch_panel(&[&maclaurin, &elongated], ("angular momentum", "axes"), BranchPoint::stretches);
-    CurveDiagram::new("Maclaurin and Jacobi", vec![panel]).save_svg("output/ellipsoid_branches.svg")?;
+    let (branches, axes) = ([&maclaurin, &elongated], ("angular momentum", "axes"));
+    let diagram = branch_diagram("Maclaurin and Jacobi", &branches, axes, BranchPoint::stretches);
+    diagram.save_svg("output/ellipsoid_branches.svg")?;
+    Ok(())
+}
+
+/// An ellipsoid of Riemann of type S, one of Jacobi where `lambda = 0`: its axes turn at `Omega` in space, and what it is made of
+/// along them at `lambda`; with its frequencies in the frame that turns, and the rate at which it breaks. All in units of
+/// `(pi G rho)^(1/2)`, as Chandrasekhar has them.
+struct Riemann {
+    /// `b/a` and `c/a`.
+    axes: [f64; 2],
+    omega: f64,
+    lambda: f64,
+    frequencies: [f64; 4],
+    growth: Option<f64>,
+}
+
+/// To 16 of 30 digits, by integrals of Carlson at 40 digits: frequencies as those of the amended potential and of 8 by 8 odd
+/// blocks, and as the spectrum of the augmented Hamiltonian. The two even ones come first.
+const RIEMANN: [Riemann; 4] = [
+    Riemann {
+        axes: [0.8, 0.5172160585801151],
+        omega: 0.6056707328899238,
+        lambda: 0.0,
+        frequencies: [1.164333042765866, 1.285776179422469, 0.7952126926666512, 1.413038036546716],
+        growth: None,
+    },
+    Riemann {
+        axes: [0.9, 0.5],
+        omega: 0.5861747442417786,
+        lambda: 0.04904445314975895,
+        frequencies: [1.07028495127457, 1.250276085718902, 0.8362313363476153, 1.375921116530418],
+        growth: None,
+    },
+    Riemann {
+        axes: [0.5, 0.3],
+        omega: 0.4931920965744979,
+        lambda: 0.1103966776135873,
+        frequencies: [0.7390321548552794, 1.263140272585022, 0.8302108015804216, 1.313775140597097],
+        growth: None,
+    },
+    Riemann {
+        axes: [0.2, 0.26],
+        omega: 0.3810779767801663,
+        lambda: -0.2073658707133111,
+        frequencies: [0.7170053049062802, 1.486930063913717, 1.520963497284105, 1.520963497284105],
+        growth: Some(0.2103208908739031),
+    },
+];
+
+/// Ellipsoids that turn in space and in themselves at once, found beside where they are, with what becomes of them.
+fn riemann_ellipsoids() -> Result<(), Box<dyn std::error::Error>> {
+    println!("\nellipsoids of Riemann, type S:");
+    let turns = [Generator::rotation(1, 2), Generator::vorticity(1, 2)];
+    for Riemann { axes: [b, c], omega, lambda, frequencies, growth } in RIEMANN {
+        let unit = PI_G_RHO.sqrt();
+        let [omega, lambda] = [omega, lambda].map(|velocity| velocity * unit);
+        let axes = Vector::<3>::new(1.0, b, c) / (b * c).cbrt();
+        let phi = Matrix::<3>::from_diagonal(&axes);
+        let beside = Matrix::<3>::from_diagonal(&Vector::<3>::new(1.01, 1.0, 1.0 / 1.01)) * phi;
+        let guess =
+            STAR.at_velocity(beside, turns[0].space * omega * beside + beside * turns[1].body * lambda)?;
+        let conditions = [Condition::Velocity(0, omega), Condition::Velocity(1, lambda)];
+        let found = relative_equilibrium(&STAR, &guess, &turns, &conditions)?;
+        let distance =
+            (0..3).map(|k| (found.point.phi().column(k).norm() - axes[k]).abs()).fold(0.0, f64::max);
+        let stability = found.stability(&STAR)?;
+        let missed = |known: f64| {
+            let from = stability.eigenvalues.iter().map(|one| (one.value.im.abs() / unit - known).abs());
+            from.fold(f64::INFINITY, f64::min)
+        };
+        let missed = frequencies.into_iter().map(missed).fold(0.0, f64::max);
+        println!(
+            "  b/a = {b:.1}, c/a = {c:.4}: {:?}, axes to {distance:.0e}, frequencies to {missed:.0e}",
+            stability.verdict
+        );
+        let is_right = match (stability.verdict, growth) {
+            (StabilityVerdict::Unstable { rate }, Some(known)) => (rate / unit - known).abs() < 1e-12,
+            (StabilityVerdict::Stable | StabilityVerdict::LinearlyStable, None) => true,
+            _ => false,
+        };
+        if distance > 1e-12 || missed > 1e-12 || !is_right {
+            return Err("an ellipsoid of Riemann is not as it is known".into());
+        }
+    }
     Ok(())
 }
 

@@ -9,7 +9,7 @@
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
 //! | how motions depend on their start | [`FlowMatrix`], [`lyapunov_spectrum`] |
 //! | how they depend on fields | [`field_sensitivities`] |
-//! | how they branch | [`Continuation`], and `branch_panel` with the feature `report` |
+//! | how they branch | [`Continuation`], and `branch_diagram` with the feature `report` |
 
 mod branch;
 mod error;
@@ -36,7 +36,7 @@ pub use generator::Generator;
 pub use jacobian::JacobianMatrix;
 pub use modes::{Mode, ModeClass, Modes};
 #[cfg(feature = "report")]
-pub use pictures::branch_panel;
+pub use pictures::branch_diagram;
 pub use relative::{Condition, RelativeEquilibrium, equilibrium, relative_equilibrium};
 pub use spectrum::Eigenvalue;
 pub use stability::{Doubt, Stability, StabilityVerdict};

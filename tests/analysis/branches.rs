@@ -1,7 +1,7 @@
 //! Branches with folds, bifurcations and collisions that are known.
 
 use affine_runtime::analysis::{
-    Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_panel,
+    Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_diagram,
 };
 use affine_runtime::prelude::*;
 
@@ -47,9 +47,11 @@ fn a_disc_branches_and_then_breaks() {
         assert!((sum - 4.0 / 0.8 * (det * det - 1.0)).abs() < 1e-11, "{q:?}");
         assert_eq!(point.stability.verdict, StabilityVerdict::Stable, "{q:?}");
     }
-    let panel = branch_panel(&[&round, &elongated], ("S_12", "stretches"), BranchPoint::stretches);
-    let colours: Vec<usize> = panel.curves.iter().map(|curve| curve.category).collect();
-    assert!([0, 2, 4].iter().all(|colour| colours.contains(colour)) && !colours.contains(&3));
+    let diagram =
+        branch_diagram("Discs", &[&round, &elongated], ("S_12", "stretches"), BranchPoint::stretches);
+    let svg = diagram.to_svg().unwrap();
+    assert!(["stable", "unstable", "special points"].iter().all(|name| svg.contains(name)), "{svg}");
+    assert!(!svg.contains("undecided"));
     assert!(elongated.points.len() > 10 && elongated.points.last().unwrap().stretches()[0] > 2.5);
 }
 

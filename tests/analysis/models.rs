@@ -71,3 +71,26 @@ pub(crate) fn unrest<const N: usize, M: Model<N>>(
     };
     run.iter().map(error).fold(0.0, f64::max)
 }
+
+/// A soft body of Saint Venant's material, the same in all directions.
+#[affine_model(dim = 3, kinetic(dalembert = 1), potential = lam/8*(tr(G) - 3)^2 + mu/4*(tr(G^2) - 2*tr(G) + 3))]
+pub(crate) struct Round {
+    pub(crate) lam: f64,
+    pub(crate) mu: f64,
+}
+
+/// Left-invariant in space, isotropic in the body.
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+)]
+pub(crate) struct Vibrating;
+
+/// The same in the plane.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+)]
+pub(crate) struct Flat;

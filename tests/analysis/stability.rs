@@ -5,7 +5,9 @@ use affine_runtime::analysis::{
 };
 use affine_runtime::prelude::*;
 
-use crate::models::{Disc, FreeTop, Missile, Soft, Top, turning, unrest};
+use affine_runtime::model::Model;
+
+use crate::models::{Disc, Flat, FreeTop, Missile, Round, Soft, Top, Vibrating, turning, unrest};
 
 /// Positive frequencies, from the least.
 fn frequencies<const N: usize>(stability: &Stability<N>) -> Vec<f64> {
@@ -223,4 +225,90 @@ fn zero_modes_are_not_called_stable() {
     let guess = Flat.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
     let stability = equilibrium(&Flat, &guess).unwrap().stability(&Flat).unwrap();
     assert_eq!(stability.verdict, StabilityVerdict::Undecided(Doubt::ZeroMode));
+}
+
+/// The frequencies of a body that turns about the last axis, or in its plane, seen in the frame that turns with it. Those that
+/// are known come with any multiplicity, `omega` itself, by which the axis tilts, or not.
+fn assert_spectrum<const N: usize, M: Model<N>>(
+    model: &M,
+    guess: &M::Point<f64>,
+    omega: f64,
+    expected: &[f64],
+) -> M::Point<f64> {
+    let turn = [Generator::rotation(1, 2)];
+    let found = relative_equilibrium(model, guess, &turn, &[Condition::Velocity(0, omega)]).unwrap();
+    assert!(unrest(model, &found, 10.0) < 1e-9);
+    let stability = found.stability(model).unwrap();
+    assert_paired(&stability);
+    assert!(!matches!(stability.verdict, StabilityVerdict::Unstable { .. }), "{:?}", stability.verdict);
+    let frequencies: Vec<f64> = frequencies(&stability).into_iter().filter(|w| *w > 1e-3).collect();
+    let near = |a: f64, b: &f64| (a - b).abs() < 1e-11;
+    for one in &frequencies {
+        assert!(expected.iter().any(|known| near(*one, known)), "{one} of {frequencies:?} is not known");
+    }
+    for known in expected.iter().filter(|known| !near(omega, known)) {
+        assert!(frequencies.iter().any(|one| near(*one, known)), "{known} is not among {frequencies:?}");
+    }
+    found.point
+}
+
+/// Rows "spinning body" of d'Alembert's inertia: flattened, with waves around the axis.
+#[test]
+fn a_round_body_flattens_as_it_spins() {
+    let rows = [
+        (
+            (1.0, 2.0, 0.4),
+            (1.0281745265969475, 0.9885053652574968, 0.8457142857142858),
+            [
+                2.0384090375906874,
+                2.777311654107267,
+                1.6948917462656686,
+                2.4948917462656685,
+                0.4,
+                1.866052135976106,
+                2.266052135976106,
+            ],
+        ),
+        (
+            (0.0, 1.0, 0.6),
+            (1.16619037896906, 1.0, 1.632),
+            [
+                2.0_f64.sqrt(),
+                2.039607805437114,
+                1.1549928774784245,
+                2.3549928774784243,
+                0.6,
+                1.376305461424021,
+                1.976305461424021,
+            ],
+        ),
+    ];
+    for ((lam, mu, omega), (a, c, spin), expected) in rows {
+        let model = Round { lam, mu }.prepare().unwrap();
+        let phi = Matrix::<3>::from_diagonal(&Vector::<3>::new(a, a, c).add_scalar(0.01));
+        let guess = model.at_velocity(phi, turning::<3>(omega) * phi).unwrap();
+        let point = assert_spectrum(&model, &guess, omega, &expected);
+        let stretches: Vec<f64> = (0..3).map(|k| point.phi().column(k).norm()).collect();
+        assert_near(&stretches, &[a, a, c], 1e-12);
+        assert!((point.spin().0.0[(0, 1)].abs() - spin).abs() < 1e-12, "{:?}", point.spin());
+    }
+}
+
+/// Rows "spinning body" of invariant kinetic energies: what spins is not deformed, and its bar mode is seen shifted.
+#[test]
+fn an_invariant_body_spins_undeformed() {
+    let omega = 0.7;
+    let guess = Flat.at_velocity(Matrix::<2>::identity(), turning(omega)).unwrap();
+    assert_spectrum(&Flat, &guess, omega, &[0.49391598120173325, 1.8898223650461363, 3.23941735213160]);
+    let guess = Vibrating.at_velocity(Matrix::<3>::identity(), turning(omega)).unwrap();
+    let expected = [
+        0.3785779102769618,
+        0.49391598120173325,
+        0.7,
+        1.2909944487358056,
+        1.4907119849998598,
+        2.2452445769436284,
+        3.23941735213160,
+    ];
+    assert_spectrum(&Vibrating, &guess, omega, &expected);
 }

@@ -56,16 +56,17 @@ fn panel<const N: usize>(rest: &Matrix<N>, mode: &Mode<N>) -> Option<CurvePanel>
 
 /// Size of the mark of a special point, in parts of the panel.
 const MARK: f64 = 0.012;
-/// The colour of marks.
-const MARKED: usize = 4;
+/// What curves of each category are; the last one is that of marks.
+const LEGEND: [&str; 5] = ["stable", "linearly stable", "unstable", "undecided", "special points"];
 
 /// A branch diagram: numbers of each point, as its stretches, against its parameter. A branch changes its colour with its
-/// stability: 0 stable, 1 linearly stable, 2 unstable, 3 undecided; special points are marked in colour 4.
-pub fn branch_panel<const N: usize, P: Phase<N>>(
+/// stability, and special points are marked, see [`Special`](super::Special); a legend tells which is which.
+pub fn branch_diagram<const N: usize, P: Phase<N>>(
+    title: &str,
     branches: &[&Branch<N, P>],
     (x, y): (&str, &str),
     numbers: impl Fn(&BranchPoint<N, P>) -> Vec<f64>,
-) -> CurvePanel {
+) -> CurveDiagram {
     let places = |point: &BranchPoint<N, P>| -> Vec<(f64, f64)> {
         numbers(point).into_iter().map(|number| (point.parameter, number)).collect()
     };
@@ -90,8 +91,11 @@ pub fn branch_panel<const N: usize, P: Phase<N>>(
         for (x, y) in branch.special.iter().flat_map(|(_, point)| places(point)) {
             let corners = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)];
             let points = corners.iter().map(|(a, b)| (x + a * width, y + b * height)).collect();
-            curves.push(Curve { category: MARKED, points });
+            curves.push(Curve { category: LEGEND.len() - 1, points });
         }
     }
-    CurvePanel { x: x.into(), y: y.into(), logarithmic: false, range: None, curves }
+    let has = |category: usize| curves.iter().any(|curve| curve.category == category);
+    let legend: Vec<_> = LEGEND.into_iter().enumerate().filter(|(category, _)| has(*category)).collect();
+    let panel = CurvePanel { x: x.into(), y: y.into(), logarithmic: false, range: None, curves };
+    CurveDiagram::new(title, vec![panel]).legend(legend)
 }

@@ -11,12 +11,16 @@ use crate::error::Result;
 
 const PANEL: (f64, f64) = (400.0, 330.0);
 const MARGIN: (f64, f64, f64) = (84.0, 56.0, 66.0);
+/// Length of a line, and size of letters, in a legend.
+const DASH: f64 = 16.0;
+const LETTER: f64 = 11.0;
 
 /// A picture of panels side by side, each with curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveDiagram {
     title: String,
     panels: Vec<CurvePanel>,
+    legend: Vec<(usize, String)>,
 }
 
 /// One panel of a [`CurveDiagram`].
@@ -47,7 +51,14 @@ impl CurveDiagram {
     /// A diagram of panels.
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<CurvePanel>) -> Self {
-        Self { title: title.into(), panels }
+        Self { title: title.into(), panels, legend: Vec::new() }
+    }
+
+    /// What the curves of these categories are, in a line below the title.
+    #[must_use]
+    pub fn legend<'n>(self, names: impl IntoIterator<Item = (usize, &'n str)>) -> Self {
+        let legend = names.into_iter().map(|(category, name)| (category, name.to_owned())).collect();
+        Self { legend, ..self }
     }
 
     /// The picture as an SVG document.
@@ -60,6 +71,12 @@ impl CurveDiagram {
         let (width, height) = (step * self.panels.len() as f64 + 24.0, top + PANEL.1 + bottom);
         Canvas::draw(width.ceil() as u32, height.ceil() as u32, |canvas| {
             canvas.text(&self.title, (left, 28.0), Lettering::new(15.0, INK).bold());
+            let mut x = left;
+            for (index, name) in &self.legend {
+                canvas.line((x, 43.0), (x + DASH, 43.0), Pen::new(category(*index), 2.0));
+                canvas.text(name, (x + DASH + 5.0, 47.0), Lettering::new(LETTER, INK));
+                x += DASH + 19.0 + 0.55 * LETTER * name.chars().count() as f64;
+            }
             for (index, panel) in self.panels.iter().enumerate() {
                 let start = left + step * index as f64;
                 let area = Area { left: start, top, right: start + PANEL.0, bottom: top + PANEL.1 };

@@ -60,6 +60,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Flow<'a, N, H> {
     /// The flow of a model from a phase point at a time, by [`Method::Automatic`] and to the tolerance
     /// [`DEFAULT_TOLERANCE`](super::DEFAULT_TOLERANCE).
     ///
+    /// How far it will go is not known: for stiff friction, which the choice of a run sees by that, name [`Method::Radau`].
+    ///
     /// # Errors
     /// As [`by`](Self::by).
     pub fn new(model: H, start: (f64, PointOf<N, H>)) -> Result<Self, Stop> {
