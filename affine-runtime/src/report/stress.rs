@@ -12,7 +12,6 @@ use crate::error::{Error, Result};
 use crate::model::{Conserved, Model, Quantity};
 use crate::simulate::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
 
-const DEFAULT_METHODS: [Method; 3] = [Method::Automatic, Method::RungeKutta8, Method::Radau { stages: None }];
 const DEFAULT_TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 const DEFAULT_SPEEDS: [f64; 4] = [1e-6, 1e-3, 1e3, 1e6];
 /// A long run, in runs.
@@ -95,8 +94,9 @@ type Outcome = core::result::Result<(f64, Oracle, u64), (String, bool)>;
 
 impl<'a, const N: usize, M: Model<N>> Stress<'a, N, M> {
     /// Stress on the motions of `model` from the phase point `start` at time 0: by [`Method::Automatic`],
-    /// [`Method::RungeKutta8`] and [`Method::Radau`], at tolerances 1e-2, 1e-4, ..., 1e-14, with momenta times 1e-6, 1e-3, 1e3 and
-    /// 1e6.
+    /// [`Method::RungeKutta8`], [`Method::Radau`] and whatever follows a tolerance and was emitted for the model, at tolerances
+    /// 1e-2, 1e-4, ..., 1e-14, with momenta times 1e-6, 1e-3, 1e3 and 1e6. Methods of equal steps have to be
+    /// [named](Self::methods), and so has the baseline, [`Method::RungeKutta5`].
     #[must_use]
     pub fn new(model: &'a M, start: M::Point<f64>) -> Self {
         Self {
@@ -104,7 +104,7 @@ impl<'a, const N: usize, M: Model<N>> Stress<'a, N, M> {
             start,
             t0: 0.0,
             t_end: None,
-            methods: DEFAULT_METHODS.to_vec(),
+            methods: methods_of(model),
             tolerances: DEFAULT_TOLERANCES.to_vec(),
             speeds: DEFAULT_SPEEDS.to_vec(),
             fields: Vec::new(),
@@ -298,6 +298,21 @@ impl<const N: usize, M: Model<N>> fmt::Debug for Stress<'_, N, M> {
             .field("tolerances", &self.tolerances)
             .finish_non_exhaustive()
     }
+}
+
+/// The methods that follow a tolerance and serve a model, but for the baseline.
+fn methods_of<const N: usize, M: Model<N>>(model: &M) -> Vec<Method> {
+    let has_halves = M::second_order(model).is_some();
+    let serves = [
+        (Method::Automatic, true),
+        (Method::RungeKutta8, true),
+        (Method::Radau { stages: None }, true),
+        (Method::Taylor { order: None }, M::taylor(model).is_some()),
+        (Method::AdaptiveSplitting { order: None }, M::splitting(model).is_some()),
+        (Method::RungeKuttaNystrom12, has_halves),
+        (Method::RungeKuttaNystrom8, has_halves),
+    ];
+    serves.into_iter().filter(|(_, serves)| *serves).map(|(method, _)| method).collect()
 }
 
 /// The same placement with all momenta times a factor.

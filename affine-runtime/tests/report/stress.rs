@@ -212,3 +212,30 @@ fn settings_that_make_no_sense_are_errors() {
     let loose = stress().until(1.0).tolerances([1e-2, 2.0]);
     assert!(matches!(refused(loose), Reason::Setting(Setting::Tolerance { .. })));
 }
+
+/// All that was emitted is tried, and held.
+#[test]
+fn every_method_that_serves_is_tried() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = neo_hookean(0.5) + 2*q^2,
+        emit(taylor, splitting, nystrom)
+    )]
+    struct Able;
+
+    let start = started::<Able>(|phi, rate| Able.at_velocity(phi, rate));
+    let report = Stress::new(&Able, start).until(4.0).tolerances([1e-6]).speeds([]).run().unwrap();
+    all(&report, Verdict::Held);
+    let headings: Vec<_> = report.cases().iter().step_by(3).map(|case| case.heading).collect();
+    let expected = [
+        "automatic",
+        "Runge-Kutta 8",
+        "Radau",
+        "Taylor",
+        "adaptive splitting",
+        "Runge-Kutta-Nystrom 12",
+        "Runge-Kutta-Nystrom 8",
+    ];
+    assert_eq!(headings, expected);
+}
