@@ -7,6 +7,12 @@ pub trait Lanes: Scalar {
     /// The number in one lane.
     type Lane: Real;
 
+    /// Lanes that hold the same numbers, each with a multiply-add that is rounded once.
+    type Fused: Lanes;
+
+    /// A multiply-add is rounded once, whatever the target promises.
+    const IS_FUSED: bool;
+
     /// Number of lanes.
     const LANES: usize;
 

@@ -9,8 +9,8 @@ use core::ops::{Add, Index, Mul, Neg, Sub};
 use crate::system::StateVector;
 use crate::vectors::Vectors;
 
-/// Four doubles that are computed with together, on the vectors `V` of a processor. Nothing is fused but where the
-/// target says so for numbers as well: each lane has the bits that the same operations have outside of it.
+/// Four doubles that are computed with together, on the vectors `V` of a processor: a product and a sum are rounded as it
+/// rounds them, everything else as it is outside of lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct Four<V> {
     vectors: V,
@@ -28,14 +28,14 @@ impl<V: Vectors> Four<V> {
         Self { vectors, lanes }
     }
 
-    /// `self + a b`, as [`Scalar::plus`](crate::scalar::Scalar::plus) of doubles rounds it.
+    /// `self + a b`, rounded once or twice as the processor does.
     #[must_use]
     #[inline(always)]
     pub fn plus(self, a: Self, b: Self) -> Self {
         Self { lanes: self.vectors.plus_product(self.lanes, a.lanes, b.lanes), ..self }
     }
 
-    /// `self - a b`, as [`Scalar::minus`](crate::scalar::Scalar::minus) of doubles rounds it.
+    /// `self - a b`, rounded likewise.
     #[must_use]
     #[inline(always)]
     pub fn minus(self, a: Self, b: Self) -> Self {

@@ -115,7 +115,7 @@ pub trait Packing<S, C> {
     /// The state of vectors.
     fn unpacked(&self, packed: &Self::Packed) -> S;
 
-    /// `f(t, y)`, with the bits that it has over single components.
+    /// `f(t, y)`, with the bits that it has over single components whose multiply-add is that of the vectors.
     fn slope(&self, vectors: impl Vectors, t: f64, constants: &C, packed: &Self::Packed) -> Self::Packed;
 }
 

@@ -7,6 +7,8 @@
 //! Fast, [`FastF64x8`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
 //! of [`Fast`], which become vector instructions, right to [`FAST_ULP`] units of the last place.
 //!
+//! Both have a twin of [`Fused`] numbers, for models whose steps alone are in vectors, where those of the processor are fused.
+//!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
 
@@ -14,6 +16,8 @@ mod elementary;
 #[cfg(feature = "std")]
 pub(crate) mod equations;
 mod fast;
+mod fused;
+mod operators;
 #[cfg(feature = "std")]
 pub(crate) mod parts;
 
@@ -26,6 +30,7 @@ use affine_core::scalar::{Real, Scalar};
 
 pub use affine_core::lanes::Lanes;
 pub use fast::{FAST_ULP, Fast};
+pub use fused::{Fused, InLane};
 
 /// `LANES` doubles that are computed with as numbers `S`. A line of the cache, or several whole ones, so that no vector stands in two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +72,10 @@ impl<S: Real, const LANES: usize> Several<S, LANES> {
     }
 }
 
-impl<S: Real, const LANES: usize> Lanes for Several<S, LANES> {
+impl<S: InLane, const LANES: usize> Lanes for Several<S, LANES> {
     type Lane = S;
+    type Fused = Several<S::Fused, LANES>;
+    const IS_FUSED: bool = S::IS_FUSED;
     const LANES: usize = LANES;
 
     #[inline(always)]

@@ -33,6 +33,7 @@ pub use rattle::Rattle;
 pub use runge_kutta::{RungeKutta5, RungeKutta8};
 pub use splitting::{AdaptiveSplitting, Splitting};
 pub use taylor::Taylor;
+pub use widest::is_fused;
 
 use core::fmt;
 
@@ -65,6 +66,7 @@ pub mod __private {
         pub use crate::splitting::adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, ORDER, fastest};
         pub use crate::splitting::coefficients::Sweeps;
         pub use crate::tape::Tape;
+        pub use affine_core::__private::numerics::IS_FUSED;
     }
 }
 

@@ -274,7 +274,7 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Work for Advance<'_, S, C, R>
     type Output = Result<(), Failure>;
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.0.accepted(vectors)
+        self.0.accepted(vectors.rounding_as_numbers())
     }
 }
 

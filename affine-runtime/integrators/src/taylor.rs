@@ -12,13 +12,12 @@ use super::roughly::exp;
 use super::step_size::{first_step, shortest};
 use super::tape::Tape;
 use super::vectors::Baseline;
-use super::widest::{Work, roomiest};
+use super::widest::{Work, roomiest, widest};
 use super::{Failure, Statistics, sound};
 use affine_core::__private::numerics::{
     HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, sum_of_squares,
 };
 use affine_core::model::{Group, StateVector};
-use affine_core::scalar::Scalar;
 
 /// Adaptive integration from `t0` to `t_end`, in either direction of time, by Taylor polynomials.
 ///
@@ -169,7 +168,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if (end - self.t).abs() <= shortest(self.t, self.t_end) && end != self.t_end {
             return Err(Failure::StepUnderflow);
         }
-        let rise = self.rise(end - self.t);
+        let rise = self.rise(vectors, end - self.t);
         let (mut y, mut carry) = (self.y, self.carry);
         for (i, (y, carry)) in y.as_mut().iter_mut().zip(carry.as_mut()).enumerate() {
             let before = *y;
@@ -235,12 +234,17 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
     /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one
     /// length, and the phase drift.
     #[inline(always)]
-    fn rise(&self, h: f64) -> S {
+    fn rise(&self, vectors: impl Vectors, h: f64) -> S {
         let h = h / self.unit;
         let mut rise = self.coefficients[self.order];
         for coefficient in self.coefficients[1..self.order].iter().rev() {
-            for (rise, coefficient) in rise.as_mut().iter_mut().zip(coefficient.as_ref()) {
-                *rise = Scalar::fma(*rise, h, *coefficient);
+            let (fours, rest) = rise.as_mut().as_chunks_mut();
+            let (of_fours, of_rest) = coefficient.as_ref().as_chunks();
+            for (rise, coefficient) in fours.iter_mut().zip(of_fours) {
+                *rise = vectors.plus_product(*coefficient, *rise, [h; 4]);
+            }
+            for (rise, coefficient) in rest.iter_mut().zip(of_rest) {
+                *rise = vectors.plus_one(*coefficient, *rise, h);
             }
         }
         rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
@@ -253,7 +257,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         if t == self.t {
             return self.y;
         }
-        let mut y = self.rise(t - self.begin);
+        let mut y = widest(Rise(self, t - self.begin));
         for (y, begin) in y.as_mut().iter_mut().zip(self.coefficients[0].as_ref()) {
             *y += begin;
         }
@@ -316,6 +320,17 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Work for Advance<'_, S, C, R> {
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
         self.0.step(vectors)
+    }
+}
+
+/// What the polynomial has risen by after a time.
+struct Rise<'a, S, C, R: Series<S, C>>(&'a Taylor<S, C, R>, f64);
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> Work for Rise<'_, S, C, R> {
+    type Output = S;
+    #[inline(always)]
+    fn run(self, vectors: impl Vectors) -> S {
+        self.0.rise(vectors, self.1)
     }
 }
 

@@ -1,7 +1,9 @@
 //! Vectors of four doubles, as processors have them.
 
 use affine_core::__private::Vectors;
-use wide::f64x4;
+use affine_core::__private::numerics::IS_FUSED;
+use affine_core::scalar::Scalar;
+use wide::{f64x2, f64x4};
 
 /// The vectors that every processor of the target has.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,18 @@ impl Vectors for Baseline {
         f64x4::from(left).mul_add(f64x4::from(right), f64x4::from(sum)).into()
     }
     #[inline(always)]
+    fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
+        left.fma(right, sum)
+    }
+    #[inline(always)]
+    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(sum)).into()
+    }
+    #[inline(always)]
+    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(sum)).into()
+    }
+    #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         f64x4::from(left).mul_neg_add(f64x4::from(right), f64x4::from(sum)).into()
     }
@@ -36,14 +50,18 @@ impl Vectors for Baseline {
     }
 }
 
-/// AVX2, found at run time where the target does not promise it. What the target makes of a multiply-add of numbers is made
-/// of these too: of two roundings one where it promises such an instruction, and nothing elsewhere.
+/// AVX2, found at run time where the target does not promise it, with the multiply-add that came with it, or with one that is
+/// rounded as that of numbers.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx2(pub(crate) pulp::x86::V3);
+pub(crate) struct Avx2<const FUSED: bool>(pub(crate) pulp::x86::V3);
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-impl Vectors for Avx2 {
+impl<const FUSED: bool> Vectors for Avx2<FUSED> {
+    #[inline(always)]
+    fn rounding_as_numbers(self) -> impl Vectors {
+        Avx2::<false>(self.0)
+    }
     #[inline(always)]
     fn whole(self, vector: [f64; 4]) -> [f64; 4] {
         // The factor is gone when the compiler has seen that all of the vector is read.
@@ -57,16 +75,36 @@ impl Vectors for Avx2 {
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         let [sum, left, right] = [sum, left, right].map(pulp::cast);
-        pulp::cast(if cfg!(target_feature = "fma") {
+        pulp::cast(if const { FUSED || IS_FUSED } {
             self.0.mul_add_f64x4(left, right, sum)
         } else {
             self.0.add_f64x4(sum, self.0.mul_f64x4(left, right))
         })
     }
     #[inline(always)]
+    fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
+        if const { FUSED } { left.mul_add(right, sum) } else { left.fma(right, sum) }
+    }
+    #[inline(always)]
+    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        if const { !FUSED } {
+            return f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(sum)).into();
+        }
+        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        pulp::cast(self.0.mul_add_f64x2(left, right, sum))
+    }
+    #[inline(always)]
+    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        if const { !FUSED } {
+            return f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(sum)).into();
+        }
+        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        pulp::cast(self.0.negate_mul_add_f64x2(left, right, sum))
+    }
+    #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         let [sum, left, right] = [sum, left, right].map(pulp::cast);
-        pulp::cast(if cfg!(target_feature = "fma") {
+        pulp::cast(if const { FUSED || IS_FUSED } {
             self.0.negate_mul_add_f64x4(left, right, sum)
         } else {
             self.0.sub_f64x4(sum, self.0.mul_f64x4(left, right))
@@ -90,27 +128,43 @@ pub(crate) struct Avx512(pub(crate) pulp::x86::V4);
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 impl Vectors for Avx512 {
     #[inline(always)]
+    fn rounding_as_numbers(self) -> impl Vectors {
+        Avx2::<false>(*self.0)
+    }
+    #[inline(always)]
     fn whole(self, vector: [f64; 4]) -> [f64; 4] {
-        Vectors::whole(Avx2(*self.0), vector)
+        Vectors::whole(Avx2::<true>(*self.0), vector)
     }
     #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::pair(Avx2(*self.0), one, other)
+        Vectors::pair(Avx2::<true>(*self.0), one, other)
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        Vectors::plus_product(Avx2(*self.0), sum, left, right)
+        Vectors::plus_product(Avx2::<true>(*self.0), sum, left, right)
+    }
+    #[inline(always)]
+    fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
+        Vectors::plus_one(Avx2::<true>(*self.0), sum, left, right)
+    }
+    #[inline(always)]
+    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        Vectors::plus_product_of_two(Avx2::<true>(*self.0), sum, left, right)
+    }
+    #[inline(always)]
+    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        Vectors::minus_product_of_two(Avx2::<true>(*self.0), sum, left, right)
     }
     #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        Vectors::minus_product(Avx2(*self.0), sum, left, right)
+        Vectors::minus_product(Avx2::<true>(*self.0), sum, left, right)
     }
     #[inline(always)]
     fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::plus_pair(Avx2(*self.0), sum, one, other)
+        Vectors::plus_pair(Avx2::<true>(*self.0), sum, one, other)
     }
     #[inline(always)]
     fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::minus_pair(Avx2(*self.0), sum, one, other)
+        Vectors::minus_pair(Avx2::<true>(*self.0), sum, one, other)
     }
 }

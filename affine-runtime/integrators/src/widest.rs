@@ -2,14 +2,35 @@
 //!
 //! On x86-64 the default target has vectors of two doubles and instructions that overwrite an operand. What goes
 //! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. No sum is
-//! reordered, and a multiply-add is fused where the target promises such an instruction: the results are the same to the
-//! last bit. A target that promises AVX2 takes the same copies, which name their vectors: what leaves them to the compiler
-//! keeps them in memory.
+//! reordered. A multiply-add of vectors is rounded once there, and twice by a processor without: that is the one thing by which
+//! machines differ, and [`is_fused`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
+//! what leaves them to the compiler keeps them in memory.
 
 use super::vectors::Baseline;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use super::vectors::{Avx2, Avx512};
 use affine_core::__private::Vectors;
+use affine_core::__private::numerics::IS_FUSED;
+
+/// Which of two classes of arithmetic this processor is in, for code that is compiled as this is: whether a product and a sum
+/// are rounded once where steps are in vectors, single bodies and lanes alike.
+///
+/// Within a class results have the same bits on every machine. Between classes the last bits of a step differ, and what a
+/// motion makes of them. True on x86-64 with AVX2, on AArch64, and where the target promises such an instruction.
+#[must_use]
+pub fn is_fused() -> bool {
+    IS_FUSED || has_fused_vectors()
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+fn has_fused_vectors() -> bool {
+    pulp::x86::V3::try_new().is_some()
+}
+
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+fn has_fused_vectors() -> bool {
+    false
+}
 
 /// What is worth compiling twice. Only what is inlined into `run` is.
 pub(crate) trait Work {
@@ -24,7 +45,7 @@ pub(crate) trait Work {
 #[inline(always)]
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     match pulp::x86::V3::try_new() {
-        Some(vectors) => vectors.vectorize(Once { work, vectors: Avx2(vectors) }),
+        Some(vectors) => vectors.vectorize(Once { work, vectors: Avx2::<true>(vectors) }),
         None => work.run(Baseline),
     }
 }
@@ -72,6 +93,7 @@ impl<W: Work, V: Vectors> pulp::NullaryFnOnce for Once<W, V> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use affine_core::__private::numerics::Portable;
 
     /// Products added and subtracted in lanes, and a loop over components that compilers turn into vectors.
     #[derive(Clone, Copy)]
@@ -87,6 +109,9 @@ mod tests {
                 sum = vectors.minus_product(self.0, sum, [0.29, 0.7, -0.3, 0.9]);
                 sum = vectors.minus_pair(sum, [self.0, sum], [sum, [0.21; 4]]);
                 sum = vectors.plus_pair(sum, [sum, sum], [self.0, vectors.whole(self.0)]);
+                sum[0] = vectors.plus_one(sum[0], sum[1], -0.3);
+                [sum[0], sum[1]] = vectors.plus_product_of_two([sum[0], sum[1]], [sum[2], sum[3]], [0.3, -0.1]);
+                [sum[2], sum[3]] = vectors.minus_product_of_two([sum[2], sum[3]], [sum[1], sum[0]], [0.2, 0.7]);
                 for (sum, start) in sum.iter_mut().zip(&self.0) {
                     *sum = *sum * 0.3 + start * (1.0 - *sum);
                 }
@@ -95,12 +120,79 @@ mod tests {
         }
     }
 
+    /// Numbers one by one, each multiply-add by the function of the standard library.
+    #[derive(Clone, Copy)]
+    struct ByTheLibrary;
+
+    impl ByTheLibrary {
+        fn each(of: impl FnMut(usize) -> f64) -> [f64; 4] {
+            core::array::from_fn(of)
+        }
+    }
+
+    impl Vectors for ByTheLibrary {
+        fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+            vector
+        }
+        fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+            Self::each(|k| one[0][k].mul_add(one[1][k], other[0][k] * other[1][k]))
+        }
+        fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+            Self::each(|k| self.plus_one(sum[k], left[k], right[k]))
+        }
+        fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
+            left.mul_add(right, sum)
+        }
+        fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+            core::array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
+        }
+        fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+            core::array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
+        }
+        fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+            Self::each(|k| self.plus_one(sum[k], -left[k], right[k]))
+        }
+        fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+            Self::each(|k| sum[k] + self.pair(one, other)[k])
+        }
+        fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+            Self::each(|k| sum[k] - self.pair(one, other)[k])
+        }
+    }
+
     #[test]
-    fn wider_vectors_round_the_same() {
+    fn a_multiply_add_of_wider_vectors_is_rounded_once() {
         let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
-        let plain = sums.run(Baseline);
-        assert!(plain.iter().all(|v| v.is_finite() && *v != 0.0), "{plain:?}");
-        assert_eq!(widest(sums).map(f64::to_bits), plain.map(f64::to_bits));
-        assert_eq!(roomiest(sums).map(f64::to_bits), plain.map(f64::to_bits));
+        let expected = if is_fused() { sums.run(ByTheLibrary) } else { sums.run(Portable) };
+        assert!(expected.iter().all(|v| v.is_finite() && *v != 0.0), "{expected:?}");
+        assert_eq!(widest(sums).map(f64::to_bits), expected.map(f64::to_bits));
+        assert_eq!(roomiest(sums).map(f64::to_bits), expected.map(f64::to_bits));
+    }
+
+    /// Sums on vectors that round as numbers.
+    #[derive(Clone, Copy)]
+    struct AsNumbers(Sums);
+
+    impl Work for AsNumbers {
+        type Output = [f64; 4];
+        #[inline(always)]
+        fn run(self, vectors: impl Vectors) -> [f64; 4] {
+            self.0.run(vectors.rounding_as_numbers())
+        }
+    }
+
+    #[test]
+    fn what_rounds_as_numbers_does_so_on_any_vectors() {
+        let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
+        let expected = sums.run(Portable).map(f64::to_bits);
+        assert_eq!(widest(AsNumbers(sums)).map(f64::to_bits), expected);
+        assert_eq!(roomiest(AsNumbers(sums)).map(f64::to_bits), expected);
+    }
+
+    #[test]
+    fn the_baseline_rounds_as_numbers_do() {
+        let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
+        assert_eq!(sums.run(Baseline).map(f64::to_bits), sums.run(Portable).map(f64::to_bits));
+        assert_eq!(sums.run(ByTheLibrary) == sums.run(Portable), IS_FUSED, "the two classes differ");
     }
 }

@@ -90,7 +90,6 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
     let (state, lets, rates) = (&written.state, &written.lets, &written.rates);
     let all = written.broadcasts.then(|| quote!(let all = |value| #rt::Four::of(vectors, [value; 4]);));
     let four = written.gathers.then(|| quote!(let four = |lanes| #rt::Four::of(vectors, lanes);));
-    let scalar = written.fuses.then(|| quote!(use #rt::Scalar as _;));
     quote! {
         #[inline(always)]
         fn packed_equations(
@@ -100,7 +99,6 @@ fn equations(context: &Context, packed: &Packed) -> TokenStream {
             #constants: &Self::Constants<#rt::f64>,
             packed: &Self::Packed,
         ) -> Self::Packed {
-            #scalar
             #all
             #four
             #read

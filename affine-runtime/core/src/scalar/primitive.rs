@@ -27,9 +27,9 @@ macro_rules! primitive {
 
             #[inline(always)]
             fn fma(self, factor: Self, term: Self) -> Self {
-                #[cfg(all(feature = "std", target_feature = "fma"))]
+                #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
                 return self.mul_add(factor, term);
-                #[cfg(not(all(feature = "std", target_feature = "fma")))]
+                #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
                 return self * factor + term;
             }
 

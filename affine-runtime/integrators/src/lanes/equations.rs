@@ -8,6 +8,12 @@ pub trait Equations<T, S> {
     /// What states consist of.
     const GROUPS: &'static [Group];
 
+    /// These lanes are for processors whose vectors have no multiply-add: there are fused ones for the others.
+    #[inline(always)]
+    fn are_a_last_resort(&self) -> bool {
+        false
+    }
+
     /// Writes `f(t, y)`; to be `#[inline(always)]`. In place, since states of many lanes are long.
     fn slope(&self, t: T, y: &S, slope: &mut S);
 

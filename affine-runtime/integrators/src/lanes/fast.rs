@@ -1,9 +1,5 @@
 //! A double with fast elementary functions.
 
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-
-use num_traits::{One, Zero};
-
 use super::elementary;
 use affine_core::scalar::{Real, Scalar};
 
@@ -81,49 +77,4 @@ impl Real for Fast {
     }
 }
 
-impl Zero for Fast {
-    #[inline(always)]
-    fn zero() -> Self {
-        Self(0.0)
-    }
-    fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
-
-impl One for Fast {
-    #[inline(always)]
-    fn one() -> Self {
-        Self(1.0)
-    }
-}
-
-impl Neg for Fast {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-macro_rules! operators {
-    ($($trait:ident $method:ident $assign:ident $assigned:ident),*) => {
-        $(
-            impl $trait for Fast {
-                type Output = Self;
-                #[inline(always)]
-                fn $method(self, other: Self) -> Self {
-                    Self(self.0.$method(other.0))
-                }
-            }
-
-            impl $assign for Fast {
-                #[inline(always)]
-                fn $assigned(&mut self, other: Self) {
-                    self.0.$assigned(other.0);
-                }
-            }
-        )*
-    };
-}
-operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign, Div div DivAssign div_assign);
+super::operators::operators!([] Fast, f64);

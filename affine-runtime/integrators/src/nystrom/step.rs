@@ -150,7 +150,7 @@ impl<S, H: StateVector<f64>, C, R: SecondOrder<S, C, Half = H>> Work for Attempt
     type Output = ();
     #[inline(always)]
     fn run(self, vectors: impl Vectors) {
-        self.step.attempt_in(vectors, self.motion, self.end);
+        self.step.attempt_in(vectors.rounding_as_numbers(), self.motion, self.end);
     }
 }
 

@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use crate::lie::{Coordinates, Flat, Sum};
 use crate::packed;
 use crate::stages::{self, by_rows};
+use crate::vectors::Baseline;
 use crate::widest::{Work, widest};
 use affine_core::__private::Vectors;
 use affine_core::model::StateVector;
@@ -109,7 +110,7 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
     const IS_IN_VECTORS: bool = true;
     #[inline(always)]
     fn rate(&self, t: f64, y: &S) -> S {
-        widest(Evaluation { field: self, t, y })
+        self.0.unpacked(&slope(self, Baseline, t, &self.0.packed(y)))
     }
     #[inline(always)]
     fn stored(&self, z: &S) -> R::Packed {
@@ -130,35 +131,33 @@ impl<S: StateVector<f64>, K, R: Packing<S, K>> Field<S, Flat, R::Packed> for InV
     }
 }
 
-/// `f(t, y)` by itself.
-struct Evaluation<'a, R, K, S> {
+/// `f(t, z)` by itself, on the widest vectors.
+struct Evaluation<'a, S, K, R: Packing<S, K>> {
     field: &'a InVectors<R, K>,
     t: f64,
-    y: &'a S,
+    z: &'a R::Packed,
 }
 
-impl<S: StateVector<f64>, K, R: Packing<S, K>> Work for Evaluation<'_, R, K, S> {
-    type Output = S;
+impl<S, K, R: Packing<S, K>> Work for Evaluation<'_, S, K, R> {
+    type Output = R::Packed;
     #[inline(always)]
-    fn run(self, vectors: impl Vectors) -> S {
-        let packing = &self.field.0;
-        packing.unpacked(&slope(self.field, vectors, self.t, &packing.packed(self.y)))
+    fn run(self, vectors: impl Vectors) -> R::Packed {
+        let InVectors(packing, constants) = self.field;
+        packing.slope(vectors, self.t, constants, self.z)
     }
 }
 
-/// `f(t, z)` in vectors.
+/// `f(t, z)` in vectors. The last resort is also for what is done once in many steps: on the vectors that steps have, by a
+/// call.
 #[inline(always)]
 fn slope<S, K, R: Packing<S, K>, V: Vectors>(
-    InVectors(packing, constants): &InVectors<R, K>,
+    field: &InVectors<R, K>,
     vectors: V,
     t: f64,
     z: &R::Packed,
 ) -> R::Packed {
-    if const { V::IS_LAST_RESORT } {
-        called(|| packing.slope(vectors, t, constants, z))
-    } else {
-        packing.slope(vectors, t, constants, z)
-    }
+    let evaluation = Evaluation::<S, K, R> { field, t, z };
+    if const { V::IS_LAST_RESORT } { called(|| widest(evaluation)) } else { evaluation.run(vectors) }
 }
 
 /// What is done, by a call.
@@ -169,17 +168,25 @@ pub(super) fn called<T>(act: impl FnOnce() -> T) -> T {
 
 /// `z + h sum_j a_j k_j` by rows that are data: compiled once for all models whose states are stored alike.
 #[inline(never)]
-fn moved_by_a_call<L: StateVector<f64>>(z: &L, h: f64, stages: &[L], row: &[(usize, f64)]) -> L {
+fn moved_by_a_call<const IN_VECTORS: bool, L: StateVector<f64>>(
+    z: &L,
+    h: f64,
+    stages: &[L],
+    row: &[(usize, f64)],
+) -> L {
     let mut moved = *z;
-    by_rows::moved(moved.as_mut(), h, &components(stages), row);
+    by_rows::moved(IN_VECTORS, moved.as_mut(), h, &components(stages), row);
     moved
 }
 
 /// `sum_j a_j k_j` by rows that are data.
 #[inline(never)]
-fn combination_by_a_call<L: StateVector<f64>>(stages: &[L], row: &[(usize, f64)]) -> L {
+fn combination_by_a_call<const IN_VECTORS: bool, L: StateVector<f64>>(
+    stages: &[L],
+    row: &[(usize, f64)],
+) -> L {
     let mut sum = L::zeros();
-    by_rows::combination(sum.as_mut(), &components(stages), row);
+    by_rows::combination(IN_VECTORS, sum.as_mut(), &components(stages), row);
     sum
 }
 
@@ -206,7 +213,7 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesI
     #[inline(always)]
     fn combination<const TERMS: usize>(&self, stages: &[L], row: &[(usize, f64); TERMS]) -> L {
         if const { V::IS_LAST_RESORT } {
-            combination_by_a_call(stages, row)
+            combination_by_a_call::<false, _>(stages, row)
         } else {
             stages::combination(stages, row)
         }
@@ -214,7 +221,7 @@ impl<L: StateVector<f64>, F: Fn(f64, &L) -> L, V: Vectors> Stages<L> for StagesI
     #[inline(always)]
     fn moved<const TERMS: usize>(&self, z: &L, h: f64, stages: (&[L], &L), row: &[(usize, f64); TERMS]) -> L {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages.0, row)
+            moved_by_a_call::<false, _>(z, h, stages.0, row)
         } else {
             stages::moved(z, h, stages, row)
         }
@@ -241,7 +248,7 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         if const { V::IS_LAST_RESORT } {
-            combination_by_a_call(stages, row)
+            combination_by_a_call::<true, _>(stages, row)
         } else {
             packed::combination(self.vectors, stages, row)
         }
@@ -255,7 +262,7 @@ impl<S, K, R: Packing<S, K>, V: Vectors> Stages<R::Packed> for StagesInVectors<'
         row: &[(usize, f64); TERMS],
     ) -> R::Packed {
         if const { V::IS_LAST_RESORT } {
-            moved_by_a_call(z, h, stages.0, row)
+            moved_by_a_call::<true, _>(z, h, stages.0, row)
         } else {
             packed::moved(self.vectors, (z, h), stages, row)
         }

@@ -2,7 +2,7 @@
 
 mod dense;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::dormand_prince_853::*;
 use super::pair::{DormandPrince853, E3};
@@ -11,7 +11,7 @@ use super::step::Pair;
 use crate::error_norm::{NormInLanes, Squares};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
-use crate::lanes::parts::{part, parts, plus, set_part};
+use crate::lanes::parts::{in_lanes, part, parts, plus, set_part};
 use crate::step_size::Controller;
 use crate::step_size::in_lanes::{Clocks, fate};
 use affine_core::__private::numerics::IN_RANGE;
@@ -91,7 +91,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         if self.before.is_some() {
             self.keep();
         }
-        let fates = Arch::new().dispatch(Trial(self));
+        let is_a_last_resort = self.f.are_a_last_resort();
+        let fates = in_lanes::<T, _>(Trial(self), is_a_last_resort);
         (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
             fate::UNDER_WAY => None,
             fate::ARRIVED => Some((lane, Fate::Arrived)),
@@ -150,10 +151,10 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             for i in 0..S::LEN {
                 let mut at = part(simd, &self.y.as_ref()[i], k);
                 if TERMS > 1 {
-                    at = plus(simd, combination(simd, &self.stages, (i, k), row, TERMS - 1), h, at);
+                    at = plus::<V, T>(simd, combination(simd, &self.stages, (i, k), row, TERMS - 1), h, at);
                 }
                 let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
-                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, slope, of_newest, at));
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus::<V, T>(simd, slope, of_newest, at));
             }
         }
     }
@@ -166,7 +167,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             for i in 0..S::LEN {
                 let sum = combination(simd, &self.stages, (i, k), row, TERMS);
                 let y = part(simd, &self.y.as_ref()[i], k);
-                set_part(simd, &mut self.trial.as_mut()[i], k, plus(simd, sum, h, y));
+                set_part(simd, &mut self.trial.as_mut()[i], k, plus::<V, T>(simd, sum, h, y));
             }
         }
     }
@@ -257,7 +258,7 @@ fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
     for (term, (stage, coefficient)) in row.iter().enumerate().take(terms) {
         let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
         let coefficient = simd.splat_f64s(*coefficient);
-        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus(simd, slope, coefficient, sum) };
+        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus::<V, T>(simd, slope, coefficient, sum) };
     }
     sum
 }
@@ -278,8 +279,10 @@ mod tests {
     use super::*;
     use crate::lanes::F64x8;
     use crate::{Failure, RungeKutta8};
+    use affine_core::__private::numerics::IS_FUSED;
     use affine_core::model::{Group, Quantity};
     use affine_core::scalar::Scalar;
+    use pulp::Arch;
 
     const GROUPS: &[Group] = &[Group::new(Quantity::Position, 1), Group::new(Quantity::Other("v"), 1)];
     const T_END: f64 = 20.0;
@@ -292,14 +295,14 @@ mod tests {
 
     struct Duffing;
 
-    impl Equations<F64x8, [F64x8; 2]> for Duffing {
+    impl<T: Lanes> Equations<T, [T; 2]> for Duffing {
         const GROUPS: &'static [Group] = GROUPS;
         #[inline(always)]
-        fn slope(&self, _t: F64x8, y: &[F64x8; 2], rates: &mut [F64x8; 2]) {
+        fn slope(&self, _t: T, y: &[T; 2], rates: &mut [T; 2]) {
             *rates = slope(y);
         }
         #[inline(always)]
-        fn is_sound(&self, _y: &[F64x8; 2], _lane: usize) -> bool {
+        fn is_sound(&self, _y: &[T; 2], _lane: usize) -> bool {
             true
         }
     }
@@ -322,7 +325,7 @@ mod tests {
             let cost = integration.statistics();
             alone.push((*integration.y(), cost.steps + cost.rejected));
         }
-        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
+        let mut lanes = RungeKutta8InLanes::<F64x8, _, _>::new(Duffing, T_END, TOLERANCE, 1_000_000);
         let (mut waiting, mut begun, mut found) = (8..bodies.len(), Vec::new(), vec![None; bodies.len()]);
         for lane in 0..8 {
             lanes.start(lane, (0.0, &bodies[lane]), &start(&bodies[lane])?);
@@ -349,13 +352,13 @@ mod tests {
         assert_eq!(found, alone);
         let attempts: Vec<u64> = alone.iter().flatten().map(|(_, attempts)| *attempts).collect();
         // One more where the target promises a fused multiply-add.
-        let slow = if cfg!(target_feature = "fma") { 19 } else { 18 };
+        let slow = if IS_FUSED { 19 } else { 18 };
         assert_eq!((attempts[0], attempts[20]), (slow, 2515), "slow and fast bodies");
         Ok(())
     }
 
     /// States after some attempts on one kind of vectors, with the fates on the way, as bits.
-    fn course(attempt: impl Fn(Trial<'_, F64x8, [F64x8; 2], Duffing>) -> F64x8) -> Result<Vec<u64>, Failure> {
+    fn course<T: Lanes>(attempt: impl Fn(Trial<'_, T, [T; 2], Duffing>) -> T) -> Result<Vec<u64>, Failure> {
         let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 1_000_000);
         for lane in 0..8 {
             let y = [1.5_f64.powi(lane as i32), 0.1];
@@ -370,20 +373,28 @@ mod tests {
         Ok(seen)
     }
 
-    #[test]
-    fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
-        let widest = course(|trial| Arch::new().dispatch(trial))?;
-        assert_eq!(course(|trial| pulp::Scalar::vectorize(pulp::Scalar, trial))?, widest);
+    /// The bits of lanes, the same on all vectors.
+    fn on_all_vectors<T: Lanes>() -> Result<Vec<u64>, Failure> {
+        let widest = course::<T>(|trial| Arch::new().dispatch(trial))?;
+        assert_eq!(course::<T>(|trial| pulp::Scalar::vectorize(pulp::Scalar, trial))?, widest);
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = pulp::x86::V3::try_new() {
-            assert_eq!(course(|trial| Simd::vectorize(avx2, trial))?, widest);
+            assert_eq!(course::<T>(|trial| Simd::vectorize(avx2, trial))?, widest);
         }
+        assert_eq!(course::<T>(|trial| in_lanes::<T, _>(trial, true))?, widest, "as a last resort");
+        Ok(widest)
+    }
+
+    #[test]
+    fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
+        let (rounded_as_numbers, fused) = (on_all_vectors::<F64x8>()?, on_all_vectors::<<F64x8 as Lanes>::Fused>()?);
+        assert_eq!(rounded_as_numbers == fused, IS_FUSED, "the two classes differ");
         Ok(())
     }
 
     #[test]
     fn a_lane_of_too_many_steps_is_stuck() -> Result<(), Failure> {
-        let mut lanes = RungeKutta8InLanes::new(Duffing, T_END, TOLERANCE, 3);
+        let mut lanes = RungeKutta8InLanes::<F64x8, _, _>::new(Duffing, T_END, TOLERANCE, 3);
         for lane in 0..8 {
             let y = [if lane == 5 { 1.0 } else { 1e-6 }, 0.0];
             lanes.start(lane, (0.0, &y), &start(&y)?);

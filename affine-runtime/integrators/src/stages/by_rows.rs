@@ -1,20 +1,26 @@
 //! The same combinations by rows that are data, of states with any number of components. They take longer, and are not
 //! compiled for every model again.
 
+use crate::vectors::Baseline;
 use crate::widest::{Work, widest};
 use affine_core::__private::Vectors;
-use affine_core::scalar::Scalar;
 
-/// `sum_j a_j k_j` with the bits of [`combination`](super::combination).
+/// `sum_j a_j k_j` with the bits of [`combination`](super::combination), or with those of the same sum in vectors.
 #[inline(never)]
-pub(crate) fn combination(sum: &mut [f64], stages: &[&[f64]], row: &[(usize, f64)]) {
-    widest(Combination { sum, stages, row });
+pub(crate) fn combination(in_vectors: bool, sum: &mut [f64], stages: &[&[f64]], row: &[(usize, f64)]) {
+    rounded(in_vectors, Combination { sum, stages, row });
 }
 
-/// `y + h sum_j a_j k_j` in place of `y`, with the bits of [`moved`](super::moved).
+/// `y + h sum_j a_j k_j` in place of `y`, with the bits of [`moved`](super::moved), or with those of the same sum in vectors.
 #[inline(never)]
-pub(crate) fn moved(y: &mut [f64], h: f64, stages: &[&[f64]], row: &[(usize, f64)]) {
-    widest(Moved { y, h, stages, row });
+pub(crate) fn moved(in_vectors: bool, y: &mut [f64], h: f64, stages: &[&[f64]], row: &[(usize, f64)]) {
+    rounded(in_vectors, Moved { y, h, stages, row });
+}
+
+/// The work done as sums in vectors are, which may be fused where sums of numbers are not.
+#[inline(always)]
+fn rounded(in_vectors: bool, work: impl Work<Output = ()>) {
+    if in_vectors { widest(work) } else { work.run(Baseline) }
 }
 
 struct Combination<'s> {
@@ -34,7 +40,7 @@ impl Work for Combination<'_> {
             *four = of_four(vectors, stages, row, k).unwrap_or_default();
         }
         for (i, sum) in rest.iter_mut().enumerate() {
-            *sum = of_one(stages, row, done + i).unwrap_or_default();
+            *sum = of_one(vectors, stages, row, done + i).unwrap_or_default();
         }
     }
 }
@@ -61,10 +67,10 @@ impl Work for Moved<'_> {
             *four = vectors.plus_product(*four, four_of(stages, *last, k), [h * newest; 4]);
         }
         for (i, y) in rest.iter_mut().enumerate() {
-            if let Some(sum) = of_one(stages, earlier, done + i) {
-                *y = sum.fma(h, *y);
+            if let Some(sum) = of_one(vectors, stages, earlier, done + i) {
+                *y = vectors.plus_one(*y, sum, h);
             }
-            *y = one_of(stages, *last, done + i).fma(h * newest, *y);
+            *y = vectors.plus_one(*y, one_of(stages, *last, done + i), h * newest);
         }
     }
 }
@@ -83,11 +89,11 @@ fn of_four(vectors: impl Vectors, stages: &[&[f64]], row: &[(usize, f64)], k: us
 
 /// Its component `i`.
 #[inline(always)]
-fn of_one(stages: &[&[f64]], row: &[(usize, f64)], i: usize) -> Option<f64> {
+fn of_one(vectors: impl Vectors, stages: &[&[f64]], row: &[(usize, f64)], i: usize) -> Option<f64> {
     let ((first, leading), rest) = row.split_first()?;
     let mut sum = one_of(stages, *first, i) * leading;
     for (stage, coefficient) in rest {
-        sum = one_of(stages, *stage, i).fma(*coefficient, sum);
+        sum = vectors.plus_one(sum, one_of(stages, *stage, i), *coefficient);
     }
     Some(sum)
 }
@@ -121,10 +127,10 @@ mod tests {
             row: [(usize, f64); TERMS],
         ) {
             let mut sum = [f64::NAN; 11];
-            combination(&mut sum, slices, &row);
+            combination(false, &mut sum, slices, &row);
             assert_eq!(sum.map(f64::to_bits), stages::combination(stages, &row).map(f64::to_bits));
             let mut at = y;
-            moved(&mut at, 0.3, slices, &row);
+            moved(false, &mut at, 0.3, slices, &row);
             let newest = row.last().map_or(&y, |(stage, _)| &stages[stage - 1]);
             let expected = stages::moved(&y, 0.3, (stages, newest), &row);
             assert_eq!(at.map(f64::to_bits), expected.map(f64::to_bits));

@@ -32,7 +32,9 @@ pub fn add_products<T: Scalar, const W: usize>(
     if let Some((sum, left, right)) = doubles(sum, &left, &right) {
         *sum = vectors.plus_product(*sum, left, right);
     } else if let Some((sum, left, right)) = doubles(sum, &left, &right) {
-        *sum = f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(*sum)).into();
+        *sum = vectors.plus_product_of_two(*sum, left, right);
+    } else if let Some(([sum], [left], [right])) = doubles(sum, &left, &right) {
+        *sum = vectors.plus_one(*sum, left, right);
     } else {
         for lane in 0..W {
             sum[lane] = left[lane].fma(right[lane], sum[lane]);
@@ -51,7 +53,9 @@ pub fn subtract_products<T: Scalar, const W: usize>(
     if let Some((sum, left, right)) = doubles(sum, &left, &right) {
         *sum = vectors.minus_product(*sum, left, right);
     } else if let Some((sum, left, right)) = doubles(sum, &left, &right) {
-        *sum = f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(*sum)).into();
+        *sum = vectors.minus_product_of_two(*sum, left, right);
+    } else if let Some(([sum], [left], [right])) = doubles(sum, &left, &right) {
+        *sum = vectors.minus_one(*sum, left, right);
     } else {
         for lane in 0..W {
             sum[lane] = (-left[lane]).fma(right[lane], sum[lane]);
@@ -81,8 +85,7 @@ pub fn add_pair<T: Scalar, const W: usize>(
     if let Some((sum, one, other)) = pairs(sum, one, other) {
         *sum = vectors.plus_pair(*sum, one, other);
     } else if let Some((sum, one, other)) = pairs(sum, one, other) {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
-        *sum = (f64x2::from(*sum) + one.mul_add(by, other * with)).into();
+        *sum = (f64x2::from(*sum) + f64x2::from(pair_of_two(vectors, one, other))).into();
     } else {
         for lane in 0..W {
             sum[lane] += one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
@@ -101,13 +104,19 @@ pub fn subtract_pair<T: Scalar, const W: usize>(
     if let Some((sum, one, other)) = pairs(sum, one, other) {
         *sum = vectors.minus_pair(*sum, one, other);
     } else if let Some((sum, one, other)) = pairs(sum, one, other) {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
-        *sum = (f64x2::from(*sum) - one.mul_add(by, other * with)).into();
+        *sum = (f64x2::from(*sum) - f64x2::from(pair_of_two(vectors, one, other))).into();
     } else {
         for lane in 0..W {
             sum[lane] -= one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
         }
     }
+}
+
+/// `left right + left' right'` in half a vector.
+#[inline(always)]
+fn pair_of_two(vectors: impl Vectors, one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> [f64; 2] {
+    let product = f64x2::from(other[0]) * f64x2::from(other[1]);
+    vectors.plus_product_of_two(product.into(), one[0], one[1])
 }
 
 /// The rows before the middle, the one in the middle where their number is odd, those behind: a convolution pairs them
@@ -158,8 +167,7 @@ pub fn divided<T: Scalar, const W: usize>(
     if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
         *quotient = vectors.pair(one, other);
     } else if let Some((quotient, one, other)) = pairs(&mut quotient, one, other) {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x2::from));
-        *quotient = one.mul_add(by, other * with).into();
+        *quotient = pair_of_two(vectors, one, other);
     } else {
         quotient.iter_mut().for_each(|lane| *lane = over(*lane, divisor));
     }

@@ -5,10 +5,10 @@ use core::ops::Range;
 use crate::capability::InLanes;
 use crate::error::Reason;
 use crate::frames::Matrix;
-use crate::inner::{Equations, Fate, RungeKutta8InLanes, gathered};
+use crate::inner::{Equations, Fate, IS_FUSED, InVectors, RungeKutta8InLanes, gathered};
 use crate::inner::{Start, starts_in_lanes};
 use crate::lanes::Lanes;
-use crate::model::{Group, StateVector};
+use crate::model::{Group, Model, StateVector};
 use crate::simulate::layout::{Layout, placement_in};
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
@@ -165,7 +165,10 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
             }
             let (model, constants) = &self.of_lanes[lane];
             let equations = |t: f64, y: &M::Reduced<f64>| model.reduced_equations(t, constants, y);
-            let dense = dense.get_or_insert_with(|| self.integration.dense(lane, &equations));
+            let dense = dense.get_or_insert_with(|| match M::packing(*model) {
+                Some(packing) => self.integration.dense(lane, &InVectors(packing, *constants)),
+                None => self.integration.dense(lane, &equations),
+            });
             let state = dense.as_ref().map(|dense| dense.at(t));
             state.map(|state| self.expanded(lane, t, &state)).ok_or(Reason::NotFinite)
         }
@@ -176,6 +179,13 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work;
         (model.expand(t, constants, state), work.map_or(0.0, |place| state.as_ref()[place]))
     }
+}
+
+/// The steps of a model are in vectors, so that those of the processor decide whether its lanes are fused as well; where the
+/// target has decided that already, there is one kind of lanes.
+#[inline(always)]
+pub(super) fn has_fused_lanes<const N: usize, M: Model<N>>(model: &M) -> bool {
+    !IS_FUSED && M::packing(model).is_some()
 }
 
 /// The reduced equations of the bodies in lanes.
@@ -193,6 +203,11 @@ impl<const N: usize, M: InLanes<N>, T: Lanes> Equations<T, M::Reduced<T>> for Re
     fn slope(&self, t: T, y: &M::Reduced<T>, slope: &mut M::Reduced<T>) {
         let model = |lane: usize| self.models.get(lane).copied().unwrap_or(self.first);
         M::equations_in_lanes(model, t, &self.constants, y, slope);
+    }
+
+    #[inline(always)]
+    fn are_a_last_resort(&self) -> bool {
+        !T::IS_FUSED && has_fused_lanes(self.first)
     }
 
     #[inline(always)]

@@ -1,10 +1,11 @@
 //! Bodies of an ensemble one after the other through the same lanes.
 
 use super::asked::{Asked, Member, Start};
-use super::bodies::{Bodies, Common, begun};
+use super::bodies::{Bodies, Common, begun, has_fused_lanes};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
+use crate::integrate::is_fused;
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
@@ -24,8 +25,14 @@ impl<const N: usize, H: Handle<N>, A> Asked<'_, '_, N, H, A>
 where
     H::Model: InLanes<N>,
 {
-    /// What becomes of bodies, in their order. Those that cannot go on in lanes go alone from their start.
+    /// What becomes of bodies, in their order. They go in lanes that are fused as their steps would be alone.
     pub(super) fn of<T: Lanes>(&self, starts: &[Start<N, H>]) -> Vec<Member<PointOf<N, H>, A>> {
+        let fuses = starts.first().is_some_and(|start| has_fused_lanes(start.handle.model()));
+        if fuses && is_fused() { self.all_of::<T::Fused>(starts) } else { self.all_of::<T>(starts) }
+    }
+
+    /// The same in lanes of this kind. Those that cannot go on in lanes go alone from their start.
+    fn all_of<T: Lanes>(&self, starts: &[Start<N, H>]) -> Vec<Member<PointOf<N, H>, A>> {
         let apart: Vec<Option<Method>> = starts.iter().map(|start| self.apart(start)).collect();
         let mut done: Vec<Option<Member<_, A>>> = starts.iter().map(|_| None).collect();
         self.in_lanes::<T>(starts, &apart, &mut |body, end| {

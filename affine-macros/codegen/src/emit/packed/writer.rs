@@ -26,8 +26,6 @@ pub(super) struct Written {
     pub broadcasts: bool,
     /// Are lanes gathered?
     pub gathers: bool,
-    /// Are numbers multiplied and added?
-    pub fuses: bool,
 }
 
 /// Writes the equations down.
@@ -50,15 +48,12 @@ pub(super) fn written(context: &Context, packed: &Packed) -> Written {
     let makes = |wanted: &dyn Fn(Four) -> bool| {
         packed.steps.iter().any(|step| matches!(step, Step::Vector(k) if wanted(packed.vectors[*k].made)))
     };
-    let fused =
-        |step: &Step| matches!(step, Step::Scalar(v) if matches!(packed.program.steps[*v], Op::MulAdd(..)));
     Written {
         state,
         lets: writer.lets,
         rates,
         broadcasts: makes(&|four| matches!(four, Four::All(_))),
         gathers: makes(&|four| matches!(four, Four::Gathered(_))),
-        fuses: packed.steps.iter().any(fused),
     }
 }
 
@@ -207,9 +202,9 @@ impl Writer<'_> {
             Op::Div(a, b) => infix(operand(a), quote!(/), operand(b), (Strength::Product, Strength::Sign)),
             Op::MulAdd(a, b, sum) => match &self.packed.program.steps[*a] {
                 Op::Neg(inner) if !self.bound.contains_key(&Step::Scalar(*a)) => {
-                    fused(operand(sum), "minus", operand(inner), operand(b))
+                    added_to_one(operand(sum), "minus_one", operand(inner), operand(b))
                 }
-                _ => fused(operand(sum), "plus", operand(a), operand(b)),
+                _ => added_to_one(operand(sum), "plus_one", operand(a), operand(b)),
             },
         }
     }
@@ -240,9 +235,9 @@ impl Writer<'_> {
             Four::Mul(a, b) => product(operand(a), operand(b)),
             Four::MulAdd(a, b, sum) => match self.packed.vectors[a].made {
                 Four::Neg(inner) if !self.bound.contains_key(&Step::Vector(a)) => {
-                    fused(operand(sum), "minus", operand(inner), operand(b))
+                    added(operand(sum), "minus", operand(inner), operand(b))
                 }
-                _ => fused(operand(sum), "plus", operand(a), operand(b)),
+                _ => added(operand(sum), "plus", operand(a), operand(b)),
             },
         }
     }
@@ -276,8 +271,8 @@ fn product(a: (TokenStream, Strength), b: (TokenStream, Strength)) -> (TokenStre
     infix(a, inner(quote!(*)), b, (Strength::Product, Strength::Product))
 }
 
-/// A sum and one product more.
-fn fused(
+/// A sum and one product more, of vectors.
+fn added(
     sum: (TokenStream, Strength),
     method: &str,
     (a, _): (TokenStream, Strength),
@@ -285,4 +280,15 @@ fn fused(
 ) -> (TokenStream, Strength) {
     let (sum, method) = (at_least(sum, Strength::Atom), format_ident!("{method}"));
     (quote!(#sum.#method(#a, #b)), Strength::Atom)
+}
+
+/// The same of numbers, rounded as in a vector.
+fn added_to_one(
+    (sum, _): (TokenStream, Strength),
+    function: &str,
+    (a, _): (TokenStream, Strength),
+    (b, _): (TokenStream, Strength),
+) -> (TokenStream, Strength) {
+    let function = format_ident!("{function}");
+    (quote!(vectors.#function(#sum, #a, #b)), Strength::Atom)
 }

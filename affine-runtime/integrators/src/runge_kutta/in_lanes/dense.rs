@@ -3,8 +3,11 @@
 use super::RungeKutta8InLanes;
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
+use crate::lie::{Flat, Sum};
+use crate::runge_kutta::field::Field;
 use crate::runge_kutta::pair::Step;
 use crate::runge_kutta::step::Dense;
+use crate::vectors::Baseline;
 use affine_core::model::StateVector;
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
@@ -25,17 +28,23 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     /// Dense output over the last step in a lane, which was [kept](Self::keep), by the equations of its body: that of
     /// [`RungeKutta8`](super::RungeKutta8), operation by operation. `None` where there was no step.
-    pub fn dense<R: StateVector<f64>>(&self, lane: usize, f: &impl Fn(f64, &R) -> R) -> Option<Dense<R>> {
+    pub fn dense<R: StateVector<f64>, L: StateVector<f64>>(
+        &self,
+        lane: usize,
+        field: &impl Field<R, Flat, L>,
+    ) -> Option<Dense<R>> {
         let (t, y, slope) = self.before.as_ref().filter(|_| self.has_stepped(lane))?;
         let of_lane = |lanes: &S| {
             let mut state = R::zeros();
             for (component, lanes) in state.as_mut().iter_mut().zip(lanes.as_ref()) {
                 *component = lanes.lane(lane);
             }
-            state
+            field.stored(&state)
         };
         let mut step = Step::at(t.lane(lane), of_lane(y), of_lane(slope));
         step.taken((self.t(lane), of_lane(&self.y)), self.stages[1..].iter().map(of_lane));
-        Some(step.dense(f))
+        let base = Sum::of(field.read(&of_lane(y)));
+        let dense = step.dense_in(&field.stages(Baseline, Flat, &base));
+        Some(dense.read(|stored| field.read(stored)))
     }
 }

@@ -1,11 +1,12 @@
 //! What several bodies begin with: lane by lane the numbers of [`Start::of`], operation by operation.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::Start;
 use crate::error_norm::NormInLanes;
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
+use crate::lanes::parts::in_lanes;
 use crate::roughly::{exp, ln};
 use crate::runge_kutta::{DormandPrince853, Pair};
 use crate::step_size::{FIRST_ERROR, trial as length_of_trial};
@@ -19,8 +20,8 @@ pub fn starts_in_lanes<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(
     t_end: f64,
     tolerance: f64,
 ) -> impl Iterator<Item = Option<Start<R>>> {
-    let begun =
-        Arch::new().dispatch(Beginning { f, at_start: T::constant(t0, 0.0), t0, y0, t_end, tolerance });
+    let beginning = Beginning { f, at_start: T::constant(t0, 0.0), t0, y0, t_end, tolerance };
+    let begun = in_lanes::<T, _>(beginning, f.are_a_last_resort());
     (0..T::LANES).map(move |lane| {
         let mut slope = R::zeros();
         for (component, lanes) in slope.as_mut().iter_mut().zip(begun.slope.as_ref()) {
