@@ -222,7 +222,7 @@ use proc_macro::TokenStream;
 ///
 /// | name | adds | for |
 /// |---|---|---|
-/// | `taylor` | Taylor coefficients of the motion | `Method::Taylor`, cheaper at tolerances up to 1e-8 |
+/// | `taylor` | Taylor coefficients of the motion | `Method::Taylor`, cheaper at tolerances up to 1e-12 |
 /// | `nystrom` | the equations as `q'' = f(t, q)` | `dalembert` and `flat_tensor` under a potential: Runge-Kutta-Nystrom steps of orders 8 and 12 |
 /// | `splitting` | exact flows of pieces of `H` | `Method::Splitting`; `Method::AdaptiveSplitting`, by which `Method::Automatic` passes over a stiff dilatation |
 /// | `tangent` | the variational equations, tangent to the group under a constraint | `affine_runtime::variation::Variation` |

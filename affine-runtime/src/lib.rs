@@ -207,6 +207,7 @@ macro_rules! pages {
 /// | [`forces`](guide::forces) | friction, and forces and potentials of your own |
 /// | [`events`](guide::events) | events, output, runs that stop early |
 /// | [`long_runs`](guide::long_runs) | which method, which step, which tolerance |
+/// | [`bits`](guide::bits) | which runs have the same bits |
 /// | [`methods`](guide::methods) | what each method keeps |
 /// | [`ensembles`](guide::ensembles) | many starts, many parameters |
 /// | [`frame_loops`](guide::frame_loops) | bodies that your own loop steps |
@@ -219,7 +220,7 @@ macro_rules! pages {
 #[cfg(all(doc, feature = "macros", feature = "std"))]
 pub mod guide {
     pages! {
-        first_run models energies potentials constraints forces events long_runs methods ensembles frame_loops reading lattice
+        first_run models energies potentials constraints forces events long_runs bits methods ensembles frame_loops reading lattice
         mistakes errata
     }
     // Their programs need the feature.

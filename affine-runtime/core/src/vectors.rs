@@ -1,5 +1,7 @@
 //! Vectors of four doubles, by the instructions of each processor.
 
+use core::array;
+
 use crate::scalar::Scalar;
 
 /// Vectors of four doubles, as a processor has them. A product and a sum are rounded once by processors whose vectors have
@@ -14,11 +16,10 @@ pub trait Vectors: Copy {
         self
     }
     /// The same, as one vector where it might else be taken apart: stored so, it can be loaded so at once.
-    fn whole(self, vector: [f64; 4]) -> [f64; 4];
-    /// `left right + left' right'`, lane by lane.
-    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
-    /// `sum + left right`, lane by lane.
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    #[inline(always)]
+    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
+        vector
+    }
     /// `sum + left right` of a number that fills no vector, rounded as a lane is.
     fn plus_one(self, sum: f64, left: f64, right: f64) -> f64;
     /// `sum - left right` likewise.
@@ -26,16 +27,43 @@ pub trait Vectors: Copy {
     fn minus_one(self, sum: f64, left: f64, right: f64) -> f64 {
         self.plus_one(sum, -left, right)
     }
-    /// `sum + left right` in half a vector.
-    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2];
-    /// `sum - left right` in half a vector.
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2];
+    /// `left right + left' right'`, lane by lane.
+    #[inline(always)]
+    fn pair(self, [a, b]: [[f64; 4]; 2], [c, d]: [[f64; 4]; 2]) -> [f64; 4] {
+        array::from_fn(|k| self.plus_one(c[k] * d[k], a[k], b[k]))
+    }
+    /// `sum + left right`, lane by lane.
+    #[inline(always)]
+    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
+    }
     /// `sum - left right`, lane by lane.
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4];
+    #[inline(always)]
+    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
+        array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
+    }
+    /// `sum + left right` in half a vector.
+    #[inline(always)]
+    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
+    }
+    /// `sum - left right` in half a vector.
+    #[inline(always)]
+    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
+    }
     /// `sum + (left right + left' right')`, lane by lane: the sum waits for one addition.
-    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
+    #[inline(always)]
+    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let pair = self.pair(one, other);
+        array::from_fn(|k| sum[k] + pair[k])
+    }
     /// `sum - (left right + left' right')`, lane by lane.
-    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4];
+    #[inline(always)]
+    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
+        let pair = self.pair(one, other);
+        array::from_fn(|k| sum[k] - pair[k])
+    }
 }
 
 /// Numbers one by one, as every processor has them.
@@ -44,41 +72,7 @@ pub struct Portable;
 
 impl Vectors for Portable {
     #[inline(always)]
-    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
-        vector
-    }
-    #[inline(always)]
-    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        core::array::from_fn(|k| one[0][k].fma(one[1][k], other[0][k] * other[1][k]))
-    }
-    #[inline(always)]
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        core::array::from_fn(|k| sum[k].plus(left[k], right[k]))
-    }
-    #[inline(always)]
     fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
         sum.plus(left, right)
-    }
-    #[inline(always)]
-    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        core::array::from_fn(|k| sum[k].plus(left[k], right[k]))
-    }
-    #[inline(always)]
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        core::array::from_fn(|k| sum[k].minus(left[k], right[k]))
-    }
-    #[inline(always)]
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        core::array::from_fn(|k| sum[k].minus(left[k], right[k]))
-    }
-    #[inline(always)]
-    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let pair = self.pair(one, other);
-        core::array::from_fn(|k| sum[k] + pair[k])
-    }
-    #[inline(always)]
-    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let pair = self.pair(one, other);
-        core::array::from_fn(|k| sum[k] - pair[k])
     }
 }

@@ -12,10 +12,6 @@ pub(crate) struct Baseline;
 impl Vectors for Baseline {
     const IS_LAST_RESORT: bool = cfg!(all(feature = "std", target_arch = "x86_64"));
     #[inline(always)]
-    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
-        vector
-    }
-    #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
         let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
         one.mul_add(by, other * with).into()
@@ -117,54 +113,5 @@ impl<const FUSED: bool> Vectors for Avx2<FUSED> {
     #[inline(always)]
     fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
         pulp::cast(self.0.sub_f64x4(pulp::cast(sum), pulp::cast(self.pair(one, other))))
-    }
-}
-
-/// AVX-512, of which the vectors of AVX2 have use for the registers.
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx512(pub(crate) pulp::x86::V4);
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-impl Vectors for Avx512 {
-    #[inline(always)]
-    fn rounding_as_numbers(self) -> impl Vectors {
-        Avx2::<false>(*self.0)
-    }
-    #[inline(always)]
-    fn whole(self, vector: [f64; 4]) -> [f64; 4] {
-        Vectors::whole(Avx2::<true>(*self.0), vector)
-    }
-    #[inline(always)]
-    fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::pair(Avx2::<true>(*self.0), one, other)
-    }
-    #[inline(always)]
-    fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        Vectors::plus_product(Avx2::<true>(*self.0), sum, left, right)
-    }
-    #[inline(always)]
-    fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
-        Vectors::plus_one(Avx2::<true>(*self.0), sum, left, right)
-    }
-    #[inline(always)]
-    fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        Vectors::plus_product_of_two(Avx2::<true>(*self.0), sum, left, right)
-    }
-    #[inline(always)]
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        Vectors::minus_product_of_two(Avx2::<true>(*self.0), sum, left, right)
-    }
-    #[inline(always)]
-    fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        Vectors::minus_product(Avx2::<true>(*self.0), sum, left, right)
-    }
-    #[inline(always)]
-    fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::plus_pair(Avx2::<true>(*self.0), sum, one, other)
-    }
-    #[inline(always)]
-    fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        Vectors::minus_pair(Avx2::<true>(*self.0), sum, one, other)
     }
 }

@@ -6,9 +6,9 @@
 //! machines differ, and [`is_fused`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
 //! what leaves them to the compiler keeps them in memory.
 
-use super::vectors::Baseline;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-use super::vectors::{Avx2, Avx512};
+use super::vectors::Avx2;
+use super::vectors::Baseline;
 use affine_core::__private::Vectors;
 use affine_core::__private::numerics::IS_FUSED;
 
@@ -58,12 +58,12 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
 }
 
 /// The work done, with the most registers there are: a loop over more vectors than sixteen is worth a third time. With
-/// AVX-512 there are thirty-two of any width, and an operand that one number of memory fills needs none.
+/// AVX-512 there are thirty-two, also of the vectors of AVX2, and an operand that one number of memory fills needs none.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[inline(always)]
 pub(crate) fn roomiest<W: Work>(work: W) -> W::Output {
     match pulp::x86::V4::try_new() {
-        Some(vectors) => vectors.vectorize(Once { work, vectors: Avx512(vectors) }),
+        Some(vectors) => vectors.vectorize(Once { work, vectors: Avx2::<true>(*vectors) }),
         None => widest(work),
     }
 }
@@ -110,8 +110,10 @@ mod tests {
                 sum = vectors.minus_pair(sum, [self.0, sum], [sum, [0.21; 4]]);
                 sum = vectors.plus_pair(sum, [sum, sum], [self.0, vectors.whole(self.0)]);
                 sum[0] = vectors.plus_one(sum[0], sum[1], -0.3);
-                [sum[0], sum[1]] = vectors.plus_product_of_two([sum[0], sum[1]], [sum[2], sum[3]], [0.3, -0.1]);
-                [sum[2], sum[3]] = vectors.minus_product_of_two([sum[2], sum[3]], [sum[1], sum[0]], [0.2, 0.7]);
+                [sum[0], sum[1]] =
+                    vectors.plus_product_of_two([sum[0], sum[1]], [sum[2], sum[3]], [0.3, -0.1]);
+                [sum[2], sum[3]] =
+                    vectors.minus_product_of_two([sum[2], sum[3]], [sum[1], sum[0]], [0.2, 0.7]);
                 for (sum, start) in sum.iter_mut().zip(&self.0) {
                     *sum = *sum * 0.3 + start * (1.0 - *sum);
                 }
@@ -124,39 +126,9 @@ mod tests {
     #[derive(Clone, Copy)]
     struct ByTheLibrary;
 
-    impl ByTheLibrary {
-        fn each(of: impl FnMut(usize) -> f64) -> [f64; 4] {
-            core::array::from_fn(of)
-        }
-    }
-
     impl Vectors for ByTheLibrary {
-        fn whole(self, vector: [f64; 4]) -> [f64; 4] {
-            vector
-        }
-        fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-            Self::each(|k| one[0][k].mul_add(one[1][k], other[0][k] * other[1][k]))
-        }
-        fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-            Self::each(|k| self.plus_one(sum[k], left[k], right[k]))
-        }
         fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
             left.mul_add(right, sum)
-        }
-        fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-            core::array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
-        }
-        fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-            core::array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
-        }
-        fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-            Self::each(|k| self.plus_one(sum[k], -left[k], right[k]))
-        }
-        fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-            Self::each(|k| sum[k] + self.pair(one, other)[k])
-        }
-        fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-            Self::each(|k| sum[k] - self.pair(one, other)[k])
         }
     }
 

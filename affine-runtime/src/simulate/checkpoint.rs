@@ -14,6 +14,8 @@ use crate::state::Phase;
 pub struct Checkpoint {
     /// What the run is known by: [`fingerprint`](super::fingerprint::fingerprint).
     pub(super) run: String,
+    /// The class of arithmetic of the machine, [`is_fused`](crate::integrate::is_fused).
+    pub(super) fused: bool,
     pub(super) place: Place,
 }
 

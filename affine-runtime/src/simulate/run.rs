@@ -16,7 +16,7 @@ use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use crate::error::Setting;
 use crate::error::{Reason, Stop};
-use crate::integrate::Statistics;
+use crate::integrate::{Statistics, is_fused};
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
 
@@ -124,7 +124,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
-            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, place }));
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, fused: is_fused(), place }));
         }
         outcome
     }
@@ -139,6 +139,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let model = self.model.description().name;
         if checkpoint.run != fingerprint(self.model, &self.settings, events) {
             return Err(Setting::Checkpoint { model });
+        }
+        if checkpoint.fused != is_fused() {
+            recorder.trajectory.computation.fused_before = Some(checkpoint.fused);
         }
         let origin = checkpoint.place.origin(&self.settings.start);
         recorder.place = checkpoint.place;
@@ -255,6 +258,7 @@ pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
             stiffness: None,
             friction: None,
             stiff_since: None,
+            fused_before: None,
             condition: model.condition(start.phi()),
             residual: None,
             energy_defect: 0.0,

@@ -139,7 +139,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// Goes on where a run of the same settings was interrupted, [`Trajectory::checkpoint`](super::Trajectory::checkpoint): with
-    /// the same bits, on the same machine, as if it had not been. A checkpoint of another model, parameters, start, method,
+    /// the same bits, on machines of one [class of arithmetic](crate::integrate::is_fused), as if it had not been; on another,
+    /// [`why`](super::Trajectory::why) says so. A checkpoint of another model, parameters, start, method,
     /// tolerance, interval, outputs or events is refused, [`Setting::Checkpoint`](super::Setting::Checkpoint); the largest number
     /// of steps may be another. Outputs and events are those from there on; the end that was asked for is that of both runs.
     /// Functions of events have no memory. An event that stopped the run is not met again.

@@ -67,6 +67,8 @@ pub struct Computation {
     pub friction: Option<f64>,
     /// From when on, where another method took the motion there.
     pub stiff_since: Option<f64>,
+    /// Whether multiply-adds were [fused](crate::integrate::is_fused) where the run was interrupted, if that is not as here.
+    pub fused_before: Option<bool>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
     pub condition: Option<f64>,

@@ -346,6 +346,19 @@ impl Why {
         }
     }
 
+    fn arithmetic(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (there, here) = match self.computation.fused_before {
+            None => return Ok(()),
+            Some(true) => ("fused", "not"),
+            Some(false) => ("not fused", "fused"),
+        };
+        writeln!(
+            f,
+            "goes on from another machine: multiply-adds were {there} there, and are {here} here; no uninterrupted run has the \
+             same last bits"
+        )
+    }
+
     fn scene(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, no_whirl, at_rest, .. } = self.computation;
         // Where a force acts on the centre of mass, it does not stay at rest.
@@ -375,6 +388,7 @@ impl fmt::Display for Why {
             writeln!(f, "left out of the model: {}", left_out.what)?;
         }
         self.scene(f)?;
+        self.arithmetic(f)?;
         self.tolerance(f)?;
         self.turns(f)?;
         self.power(f)?;

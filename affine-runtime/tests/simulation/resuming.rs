@@ -172,3 +172,20 @@ fn checkpoints_are_written_and_read() {
     let read: Checkpoint = serde_json::from_str(&text).unwrap();
     assert_eq!(&read, checkpoint);
 }
+
+#[test]
+#[cfg(feature = "serde")]
+fn a_run_that_goes_on_in_another_class_of_arithmetic_says_so() {
+    let halt = whole(Method::RungeKutta8).max_steps(2).run().unwrap_err();
+    let text = serde_json::to_string(halt.trajectory.checkpoint().unwrap()).unwrap();
+    let fused = |is: bool| format!("\"fused\":{is}");
+    let here = affine_runtime::integrate::is_fused();
+    let said = |text: &str| {
+        let checkpoint: Checkpoint = serde_json::from_str(text).unwrap();
+        whole(Method::RungeKutta8).resume(&checkpoint).run().unwrap().why().to_string()
+    };
+    assert!(text.contains(&fused(here)), "{text}");
+    assert!(!said(&text).contains("another machine"));
+    let elsewhere = said(&text.replace(&fused(here), &fused(!here)));
+    assert!(elsewhere.contains("goes on from another machine: multiply-adds were"), "{elsewhere}");
+}

@@ -62,9 +62,7 @@ impl<S: Real> Scalar for Fused<S> {
     fn max(self, other: Self) -> Self {
         Self(Scalar::max(self.0, other.0))
     }
-    functions!(
-        sqrt, cbrt, inverse_cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh, asinh, abs
-    );
+    functions!(sqrt, cbrt, inverse_cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh, asinh, abs);
 }
 
 impl<S: Real> Real for Fused<S> {

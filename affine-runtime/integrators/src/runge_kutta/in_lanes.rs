@@ -258,7 +258,11 @@ fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
     for (term, (stage, coefficient)) in row.iter().enumerate().take(terms) {
         let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
         let coefficient = simd.splat_f64s(*coefficient);
-        sum = if term == 0 { simd.mul_f64s(slope, coefficient) } else { plus::<V, T>(simd, slope, coefficient, sum) };
+        sum = if term == 0 {
+            simd.mul_f64s(slope, coefficient)
+        } else {
+            plus::<V, T>(simd, slope, coefficient, sum)
+        };
     }
     sum
 }
@@ -387,7 +391,8 @@ mod tests {
 
     #[test]
     fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
-        let (rounded_as_numbers, fused) = (on_all_vectors::<F64x8>()?, on_all_vectors::<<F64x8 as Lanes>::Fused>()?);
+        let (rounded_as_numbers, fused) =
+            (on_all_vectors::<F64x8>()?, on_all_vectors::<<F64x8 as Lanes>::Fused>()?);
         assert_eq!(rounded_as_numbers == fused, IS_FUSED, "the two classes differ");
         Ok(())
     }
