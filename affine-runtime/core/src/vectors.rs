@@ -28,7 +28,6 @@ pub trait Vectors: Copy {
         self.plus_one(sum, -left, right)
     }
     /// `left right + left' right'`, lane by lane.
-    #[inline(always)]
     fn pair(self, [a, b]: [[f64; 4]; 2], [c, d]: [[f64; 4]; 2]) -> [f64; 4] {
         array::from_fn(|k| self.plus_one(c[k] * d[k], a[k], b[k]))
     }
@@ -38,7 +37,6 @@ pub trait Vectors: Copy {
         array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
     }
     /// `sum - left right`, lane by lane.
-    #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
         array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
     }
@@ -47,22 +45,13 @@ pub trait Vectors: Copy {
     fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
         array::from_fn(|k| self.plus_one(sum[k], left[k], right[k]))
     }
-    /// `sum - left right` in half a vector.
-    #[inline(always)]
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        array::from_fn(|k| self.minus_one(sum[k], left[k], right[k]))
-    }
     /// `sum + (left right + left' right')`, lane by lane: the sum waits for one addition.
-    #[inline(always)]
     fn plus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let pair = self.pair(one, other);
-        array::from_fn(|k| sum[k] + pair[k])
+        array::from_fn(|k| sum[k] + self.pair(one, other)[k])
     }
     /// `sum - (left right + left' right')`, lane by lane.
-    #[inline(always)]
     fn minus_pair(self, sum: [f64; 4], one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let pair = self.pair(one, other);
-        array::from_fn(|k| sum[k] - pair[k])
+        array::from_fn(|k| sum[k] - self.pair(one, other)[k])
     }
 }
 

@@ -1,6 +1,7 @@
 //! Vectors of four doubles, as processors have them.
 
 use affine_core::__private::Vectors;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 use affine_core::__private::numerics::IS_FUSED;
 use affine_core::scalar::Scalar;
 use wide::{f64x2, f64x4};
@@ -27,10 +28,6 @@ impl Vectors for Baseline {
     #[inline(always)]
     fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
         f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(sum)).into()
-    }
-    #[inline(always)]
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(sum)).into()
     }
     #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -88,14 +85,6 @@ impl<const FUSED: bool> Vectors for Avx2<FUSED> {
         }
         let [sum, left, right] = [sum, left, right].map(pulp::cast);
         pulp::cast(self.0.mul_add_f64x2(left, right, sum))
-    }
-    #[inline(always)]
-    fn minus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
-        if const { !FUSED } {
-            return f64x2::from(left).mul_neg_add(f64x2::from(right), f64x2::from(sum)).into();
-        }
-        let [sum, left, right] = [sum, left, right].map(pulp::cast);
-        pulp::cast(self.0.negate_mul_add_f64x2(left, right, sum))
     }
     #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {

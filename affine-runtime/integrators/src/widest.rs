@@ -112,8 +112,6 @@ mod tests {
                 sum[0] = vectors.plus_one(sum[0], sum[1], -0.3);
                 [sum[0], sum[1]] =
                     vectors.plus_product_of_two([sum[0], sum[1]], [sum[2], sum[3]], [0.3, -0.1]);
-                [sum[2], sum[3]] =
-                    vectors.minus_product_of_two([sum[2], sum[3]], [sum[1], sum[0]], [0.2, 0.7]);
                 for (sum, start) in sum.iter_mut().zip(&self.0) {
                     *sum = *sum * 0.3 + start * (1.0 - *sum);
                 }

@@ -4,6 +4,7 @@
 //! no vector any more, and computes lane by lane, which is slower.
 
 use core::any::Any;
+use core::ops::Neg;
 
 use wide::f64x2;
 
@@ -53,7 +54,7 @@ pub fn subtract_products<T: Scalar, const W: usize>(
     if let Some((sum, left, right)) = doubles(sum, &left, &right) {
         *sum = vectors.minus_product(*sum, left, right);
     } else if let Some((sum, left, right)) = doubles(sum, &left, &right) {
-        *sum = vectors.minus_product_of_two(*sum, left, right);
+        *sum = vectors.plus_product_of_two(*sum, left.map(Neg::neg), right);
     } else if let Some(([sum], [left], [right])) = doubles(sum, &left, &right) {
         *sum = vectors.minus_one(*sum, left, right);
     } else {
