@@ -7,7 +7,8 @@
 //! Fast, [`FastF64x8`]: the same but for roots of order 3 and exponential, logarithmic and hyperbolic functions, those
 //! of [`Fast`], which become vector instructions, right to [`FAST_ULP`] units of the last place.
 //!
-//! Both have a twin of [`Fused`] numbers, for models whose steps alone are in vectors, where those of the processor are fused.
+//! Each has a twin whose multiply-adds are fused whatever the target promises: for bodies whose steps alone are in vectors, where
+//! those of the processor are fused.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
 //! compiles: the same type serves a target's own vectors and those found at run time.
@@ -30,7 +31,7 @@ use affine_core::scalar::{Real, Scalar};
 
 pub use affine_core::lanes::Lanes;
 pub use fast::{FAST_ULP, Fast};
-pub use fused::{Fused, InLane};
+use fused::InLane;
 
 /// `LANES` doubles that are computed with as numbers `S`. A line of the cache, or several whole ones, so that no vector stands in two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
