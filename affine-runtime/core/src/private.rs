@@ -141,9 +141,8 @@ pub mod numerics {
     pub use crate::kinematics::dilatation::LogDeterminant;
     pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
     pub use crate::reduction::jacobi;
-    pub use crate::scalar::IS_FUSED;
     pub use crate::scalar::inverse_cbrt::of_regular;
     pub use crate::system::NotEmitted;
     pub use crate::system::is_emitted;
-    pub use crate::vectors::{Portable, Vectors};
+    pub use crate::vectors::{IS_FUSED, Portable, Vectors};
 }

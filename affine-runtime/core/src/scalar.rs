@@ -15,10 +15,6 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-/// The target promises a correctly rounded multiply-add: [`Scalar::fma`] of doubles is one, and so is that of everything
-/// made of them. Elsewhere it is a product and a sum, each rounded.
-pub const IS_FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")));
-
 /// A number that straight-line code can compute with.
 pub trait Scalar:
     Copy

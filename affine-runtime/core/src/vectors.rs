@@ -4,6 +4,10 @@ use core::array;
 
 use crate::scalar::Scalar;
 
+/// The target promises a correctly rounded multiply-add: [`Scalar::fma`] of doubles is one, and so is that of everything
+/// made of them. Elsewhere it is a product and a sum, each rounded.
+pub const IS_FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")));
+
 /// Vectors of four doubles, as a processor has them. A product and a sum are rounded once by processors whose vectors have
 /// such an instruction, and otherwise as [`Scalar::fma`] of doubles rounds them.
 pub trait Vectors: Copy {
