@@ -64,9 +64,9 @@ impl Visitor for Reports {
         let stem = format!("work_precision_{}", name.replace(' ', "_").to_lowercase());
         report.save_csv(self.output.join(format!("{stem}.csv")))?;
         report.save_svg(self.output.join(format!("{stem}.svg")))?;
-        if matches!(name, "P1" | "P2" | "P3" | "P5 1e6") {
+        if matches!(name, "P1" | "P2" | "P3" | "P5 1e6" | "P7" | "P8") {
             let figure = std::mem::replace(&mut self.figure, figure());
-            self.figure = figure.all(report.series(&format!("{name}: ")));
+            self.figure = figure.panel(name).all(report.series(""));
         }
         Ok(())
     }

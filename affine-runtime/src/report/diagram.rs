@@ -14,9 +14,14 @@ use crate::error::Result;
 const LEAST_ERROR: f64 = 1e-17;
 
 /// The page and its parts; its width depends on the legend.
-const HEIGHT: u32 = 470;
 const AREA: Area = Area { left: 84.0, top: 56.0, right: 560.0, bottom: 412.0 };
-const LEGEND: Spot = (584.0, 70.0);
+/// Of panels so many side by side; their size, and what is between the corners of one and the next.
+const COLUMNS: usize = 3;
+const PANEL: (f64, f64) = (230.0, 190.0);
+const STEP: (f64, f64) = (296.0, 254.0);
+/// Between panels and what stands beside and below them.
+const BESIDE: f64 = 24.0;
+const BELOW: f64 = 58.0;
 const LEGEND_LINE: f64 = 22.0;
 /// From a line of the legend to its text, and the room a character of it takes: the width of most sans-serif
 /// fonts' broader letters at this size, since the document leaves the font to its reader.
@@ -25,11 +30,18 @@ const LETTER: f64 = 7.2;
 
 /// A picture of run time over true error, both logarithmic: precision grows to the right, cost upward, as in
 /// Hairer and Wanner, Solving Ordinary Differential Equations II. One line per series; the better method is the
-/// lower line.
+/// lower line. Of several problems each has a [panel](Self::panel) of its own, and each name of a series one colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkPrecisionDiagram {
     title: String,
     error: String,
+    parts: Vec<Part>,
+}
+
+/// The lines of one panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Part {
+    name: String,
     series: Vec<WorkPrecisionSeries>,
 }
 
@@ -56,20 +68,29 @@ impl WorkPrecisionDiagram {
     /// t = 10`.
     #[must_use]
     pub fn new(title: impl Into<String>, error: impl Into<String>) -> Self {
-        Self { title: title.into(), error: error.into(), series: Vec::new() }
+        Self { title: title.into(), error: error.into(), parts: Vec::new() }
+    }
+
+    /// Begins a panel: what is added from here on stands in it.
+    #[must_use]
+    pub fn panel(mut self, name: impl Into<String>) -> Self {
+        self.parts.push(Part { name: name.into(), series: Vec::new() });
+        self
     }
 
     /// Adds a line.
     #[must_use]
-    pub fn series(mut self, series: WorkPrecisionSeries) -> Self {
-        self.series.push(series);
-        self
+    pub fn series(self, series: WorkPrecisionSeries) -> Self {
+        self.all([series])
     }
 
     /// Adds lines, for instance [all of a report](super::WorkPrecisionReport::series).
     #[must_use]
     pub fn all(mut self, series: impl IntoIterator<Item = WorkPrecisionSeries>) -> Self {
-        self.series.extend(series);
+        match self.parts.last_mut() {
+            Some(part) => part.series.extend(series),
+            None => self.parts.push(Part { name: String::new(), series: series.into_iter().collect() }),
+        }
         self
     }
 
@@ -79,15 +100,30 @@ impl WorkPrecisionDiagram {
     /// # Errors
     /// Those of the drawing library.
     pub fn to_svg(&self) -> io::Result<String> {
-        let panel = self.panel();
-        let letters = self.series.iter().map(|series| series.name.chars().count()).max().unwrap_or(0);
-        let width = (LEGEND.0 + LEGEND_TEXT + LETTER * letters as f64 + 20.0).ceil() as u32;
-        let legend = (LEGEND.1 + self.series.len() as f64 * LEGEND_LINE).ceil() as u32;
-        Canvas::draw(width, HEIGHT.max(legend), |canvas| {
+        let names = self.names();
+        let panels: Vec<Panel> = (0..self.parts.len()).map(|place| self.panel_at(place)).collect();
+        let edge =
+            |of: fn(&Area) -> f64, least| panels.iter().map(|panel| of(&panel.area)).fold(least, f64::max);
+        let (right, bottom) = (edge(|area| area.right, AREA.left), edge(|area| area.bottom, AREA.top));
+        let letters = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        let width = right + BESIDE + LEGEND_TEXT + LETTER * letters as f64 + 20.0;
+        let legend = AREA.top + 14.0 + names.len() as f64 * LEGEND_LINE;
+        let height = if legend > bottom + BELOW { legend } else { bottom + BELOW };
+        Canvas::draw(width.ceil() as u32, height.ceil() as u32, |canvas| {
             canvas.text(&self.title, (AREA.left, 28.0), Lettering::new(15.0, INK).bold());
-            panel.frame(canvas, &self.error, "run time");
-            for (index, series) in self.series.iter().enumerate() {
-                draw_series(canvas, &panel, index, series);
+            for (place, (part, panel)) in self.parts.iter().zip(&panels).enumerate() {
+                let Area { left, top, .. } = panel.area;
+                let is_lowest = place + COLUMNS >= panels.len();
+                let time = if place % COLUMNS == 0 { "run time" } else { "" };
+                panel.frame(canvas, if is_lowest { &self.error } else { "" }, time);
+                canvas.text(&part.name, (left, top - 8.0), Lettering::new(12.0, INK).bold());
+                for series in &part.series {
+                    let index = names.iter().position(|name| *name == series.name).unwrap_or(0);
+                    draw_series(canvas, panel, index, series);
+                }
+            }
+            for (index, name) in names.iter().enumerate() {
+                explain(canvas, index, name, (right + BESIDE, AREA.top + 14.0 + index as f64 * LEGEND_LINE));
             }
         })
     }
@@ -100,16 +136,38 @@ impl WorkPrecisionDiagram {
         save(path.as_ref(), self.to_svg())
     }
 
-    fn panel(&self) -> Panel {
-        let points = || self.series.iter().flat_map(|series| series.points.iter());
-        let errors = points().map(|point| drawn_error(point.error));
+    /// What series are called, in all panels.
+    fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for series in self.parts.iter().flat_map(|part| &part.series) {
+            if !names.contains(&series.name.as_str()) {
+                names.push(&series.name);
+            }
+        }
+        names
+    }
+
+    /// The panel of a part: errors have the same axis in all of them, run times their own.
+    fn panel_at(&self, place: usize) -> Panel {
+        let points =
+            || self.parts.iter().flat_map(|part| &part.series).flat_map(|series| series.points.iter());
+        let own = || self.parts[place].series.iter().flat_map(|series| series.points.iter());
+        let (area, labels) = match self.parts.len() {
+            1 => (AREA, (9, 8)),
+            _ => {
+                let left = AREA.left + STEP.0 * (place % COLUMNS) as f64;
+                let top = AREA.top + 12.0 + STEP.1 * (place / COLUMNS) as f64;
+                (Area { left, top, right: left + PANEL.0, bottom: top + PANEL.1 }, (5, 5))
+            }
+        };
         let figure = |value: f64| if value < LEAST_ERROR { String::new() } else { format!("{value:e}") };
-        let mut x = Axis::decades(errors, 9, figure).reversed();
+        let mut x =
+            Axis::decades(points().map(|point| drawn_error(point.error)), labels.0, figure).reversed();
         if points().any(|point| point.error <= LEAST_ERROR) {
             x = x.relabel(LEAST_ERROR, "0");
         }
-        let y = Axis::decades(points().map(|point| point.seconds), 8, time_label);
-        Panel { area: AREA, x, y }
+        let y = Axis::decades(own().map(|point| point.seconds), labels.1, time_label);
+        Panel { area, x, y }
     }
 }
 
@@ -133,10 +191,14 @@ fn draw_series(canvas: &mut Canvas<'_>, panel: &Panel, index: usize, series: &Wo
     for spot in points().filter_map(|(error, seconds)| panel.spot(error, seconds)) {
         mark(canvas, index, spot, colour);
     }
-    let spot = (LEGEND.0, LEGEND.1 + index as f64 * LEGEND_LINE);
-    canvas.line((spot.0, spot.1), (spot.0 + 24.0, spot.1), Pen::new(colour, 2.0));
-    mark(canvas, index, (spot.0 + 12.0, spot.1), colour);
-    canvas.text(&series.name, (spot.0 + LEGEND_TEXT, spot.1), Lettering::new(12.0, INK));
+}
+
+/// A line of the legend.
+fn explain(canvas: &mut Canvas<'_>, index: usize, name: &str, (x, y): Spot) {
+    let colour = category(index);
+    canvas.line((x, y), (x + 24.0, y), Pen::new(colour, 2.0));
+    mark(canvas, index, (x + 12.0, y), colour);
+    canvas.text(name, (x + LEGEND_TEXT, y), Lettering::new(12.0, INK));
 }
 
 /// Disc, square, triangle or diamond: with six colours, twelve series look different.
@@ -152,6 +214,27 @@ fn mark(canvas: &mut Canvas<'_>, index: usize, (x, y): Spot, colour: Colour) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn panels_share_a_legend_and_an_axis_of_errors() -> io::Result<()> {
+        let series = |name: &str, error: f64| WorkPrecisionSeries {
+            name: name.to_owned(),
+            points: vec![WorkPrecisionPoint { error, seconds: 1e-3 }],
+        };
+        let empty = WorkPrecisionDiagram::new("problems", "error");
+        let one = empty.panel("first").series(series("the one", 1e-3)).series(series("the other", 1e-4));
+        let diagram = one.panel("second").series(series("the other", 1e-9));
+        assert_eq!(diagram.names(), ["the one", "the other"]);
+        let [first, second] = [0, 1].map(|place| diagram.panel_at(place));
+        let at = |panel: &Panel| panel.spot(1e-4, 1e-3).map(|(x, _)| x - panel.area.left);
+        assert!(at(&first).is_some() && at(&first) == at(&second), "one place for one error");
+        let svg = diagram.to_svg()?;
+        for name in ["first", "second", "the one", "the other", "error"] {
+            assert!(svg.contains(name), "{name}");
+        }
+        assert_eq!(svg.matches("the other").count(), 1, "one line of the legend");
+        Ok(())
+    }
 
     #[test]
     fn times_are_labelled_in_fitting_units() {

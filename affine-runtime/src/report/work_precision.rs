@@ -15,6 +15,8 @@ use crate::simulate::{Halt, Method, Reason, Simulation, Stop, Trajectory};
 
 /// Tolerances of a report that names none.
 const DEFAULT_TOLERANCES: [f64; 7] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14];
+/// Time for which a run is repeated before it is timed: short ones are else timed while the processor wakes.
+const WARM_UP: Duration = Duration::from_millis(1);
 /// Timed repeats of each run unless said otherwise.
 const DEFAULT_REPEATS: usize = 15;
 /// No further repeat begins once the repeats of a run have taken this long, unless said otherwise.
@@ -169,7 +171,8 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
     }
 
     fn row(&self, method: Method, tolerance: f64, reference: &M::Point<f64>) -> Result<Row> {
-        // The run that is looked at is not timed: it fills the caches and wakes the processor.
+        // The run that is looked at is not timed: it fills the caches and wakes the processor, where it is short by repeats.
+        let begun = Instant::now();
         let run = match self.attempt(method, tolerance) {
             Ok(run) => run,
             Err(halt) if matches!(halt.stop.reason, Reason::Setting(_)) => return Err(halt.into()),
@@ -178,6 +181,9 @@ impl<'a, const N: usize, M: Model<N>> WorkPrecision<'a, N, M> {
                 return Ok(Row { method, tolerance, outcome: Err(halt.stop) });
             }
         };
+        while begun.elapsed() < WARM_UP {
+            drop(core::hint::black_box(self.attempt(method, tolerance)));
+        }
         let method = run.computation().method;
         let times = self.times(method, tolerance);
         let above_tolerance = self.above_tolerance(method, tolerance);
