@@ -7,6 +7,7 @@
 use std::fs;
 use std::path::Path;
 
+use affine_runtime::gltf::Shape;
 use affine_runtime::prelude::*;
 use affine_runtime::report::WorkPrecision;
 
@@ -41,7 +42,8 @@ fn main() -> affine_runtime::Result<()> {
     println!("\n{}", run.conservation());
     run.save_csv(output.join("drunk_missile.csv"))?;
     run.save_svg(output.join("drunk_missile.svg"))?;
-    run.save_html(output.join("drunk_missile.html"))?;
+    run.page().program(include_str!("drunk_missile.rs")).save(output.join("drunk_missile.html"))?;
+    run.save_glb(output.join("drunk_missile.glb"), &Shape::ball())?;
 
     println!("\nIts twin with p = 0\n");
     at_rest(&start)?;
@@ -51,7 +53,9 @@ fn main() -> affine_runtime::Result<()> {
     println!("{report}");
     report.save_csv(output.join("drunk_missile_work_precision.csv"))?;
     report.save_svg(output.join("drunk_missile_work_precision.svg"))?;
-    println!("\nwritten to output/: drunk_missile.csv, .svg, .html, drunk_missile_work_precision.csv, .svg");
+    println!(
+        "\nwritten to output/: drunk_missile.csv, .svg, .html, .glb, drunk_missile_work_precision.csv, .svg"
+    );
     Ok(())
 }
 

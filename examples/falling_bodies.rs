@@ -12,6 +12,7 @@ use std::time::Instant;
 use affine_runtime::force::{AtPoint, PointForce, Spatial, Translation};
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
+use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};
 use affine_runtime::scalar::Scalar;
 
 /// A cube of unit edge and mass that resists whatever is no rotation, as in affine body dynamics.
@@ -140,8 +141,33 @@ fn on_the_ground() -> affine_runtime::Result<()> {
     println!(
         "on the ground after {BOUNCING} s: centres between {deepest:.2} and {highest:.2}, energies {swing:.1e} off the first"
     );
+    let shown = [0, BODIES / 2, BODIES - 1].into_iter().map(start);
+    draw(&cube, shown.collect::<affine_runtime::Result<_>>()?)?;
     assert!(deepest > 0.2 && highest < 2.0 && swing < 0.1, "the ground holds and gives back");
     Ok(())
+}
+
+/// How high the centres of some bodies are.
+fn draw(
+    cube: &PreparedBouncing,
+    starts: Vec<<PreparedBouncing as Model<3>>::Point<f64>>,
+) -> affine_runtime::Result<()> {
+    let mut curves = Vec::new();
+    for (category, start) in starts.into_iter().enumerate() {
+        let run = Simulation::new(cube, start).until(f64::from(BOUNCING)).tolerance(TOLERANCE);
+        let run = run.every(1.0 / f64::from(FRAMES)).run()?;
+        curves.push(Curve { category, points: run.iter().map(|(t, point)| (t, point.x()[2])).collect() });
+    }
+    let panel = CurvePanel {
+        x: "t".into(),
+        y: "height of the centre".into(),
+        logarithmic: false,
+        range: None,
+        curves,
+    };
+    // A folder that cannot be made shows in the file that cannot be written.
+    let _ = std::fs::create_dir_all("output");
+    CurveDiagram::new("Three soft cubes bounce", vec![panel]).save_svg("output/falling_bodies.svg")
 }
 
 /// The energy of the ground below the corners of a cube.

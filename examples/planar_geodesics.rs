@@ -13,6 +13,7 @@
 use std::fs;
 use std::path::Path;
 
+use affine_runtime::gltf::Shape;
 use affine_runtime::prelude::*;
 
 /// Affine in space and in the body; its metric is indefinite: (3, 1).
@@ -52,9 +53,11 @@ fn main() -> affine_runtime::Result<()> {
                 .fold(0.0, f64::max);
             println!("  {route:<14} largest relative error of cosh(q1 - q2): {worst:.1e}");
         }
-        let picture = Path::new("output").join(format!("planar_{name}.svg"));
-        closed.save_svg(&picture)?;
-        println!("  picture: {}\n", picture.display());
+        let picture = Path::new("output").join(format!("planar_{name}"));
+        closed.save_svg(picture.with_extension("svg"))?;
+        closed.save_html(picture.with_extension("html"))?;
+        closed.save_glb(picture.with_extension("glb"), &Shape::cuboid(Vector::<2>::new(2.0, 1.0)))?;
+        println!("  written: {}.svg, .html, .glb\n", picture.display());
     }
     Ok(())
 }

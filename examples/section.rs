@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::fs;
 
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Table;
+use affine_runtime::simulate::{Format, Table};
 
 /// D'Alembert's kinetic energy, a stiff dilatation and a soft shear.
 #[affine_model(
@@ -28,6 +28,8 @@ const VORTICITY: f64 = 0.2;
 const STARTS: usize = 200;
 const T_END: f64 = 300.0;
 const TOLERANCE: f64 = 1e-11;
+/// One start in so many is drawn.
+const SHOWN: u64 = 4;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let places = (1..40).flat_map(|i| (-10..=10).map(move |k| (0.025 * f64::from(i), 0.2 * f64::from(k))));
@@ -41,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         |(), _, _| (),
         |body| {
             stopped += usize::from(body.end.is_err());
-            let colour = format!("hsl({}, 70%, 45%)", 47 * body.number % 360);
+            let mut path = String::new();
             for event in &body.events {
                 let (x, rate) = of_section(&event.point);
                 table.push::<2, Disc>(body.number, &[x, rate], event.t, &event.point);
@@ -50,8 +52,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let energy = Disc.hamiltonian(event.t, &event.point) - ENERGY;
                 let level = event.point.phi().determinant() - 1.0;
                 worst = [spin, energy, level].iter().fold(worst, |worst, off| worst.max(off.abs()));
-                let (cx, cy) = (40.0 + 560.0 * x, 250.0 - 110.0 * rate);
-                let _ = writeln!(dots, "<circle cx='{cx:.2}' cy='{cy:.2}' r='0.7' fill='{colour}'/>");
+                let _ = write!(path, "M{:.1} {:.1}h0", 1100.0 * x - 20.0, 245.0 - 185.0 * rate);
+            }
+            if body.number % SHOWN == 0 {
+                let colour = format!("hsl({}, 70%, 45%)", 47 * (body.number / SHOWN) % 360);
+                let _ = writeln!(dots, "<path d='{path}' stroke='{colour}'/>");
             }
         },
     )?;
@@ -60,11 +65,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert!(starts.len() == STARTS && stopped == 0 && points > 50 * STARTS && worst < 1e-7);
     fs::create_dir_all("output")?;
     let label = "<text x='300' y='490' font-size='14'>x = (q1 - q2)/2</text><text x='5' y='20' font-size='14'>x'</text>";
-    let size = "xmlns='http://www.w3.org/2000/svg' width='720' height='500'";
-    fs::write("output/section.svg", format!("<svg {size}>\n{label}\n{dots}</svg>\n"))?;
-    table.save_npz("output/section.npz")?;
-    table.csv(fs::File::create("output/section.csv")?)?;
-    println!("picture: output/section.svg; numbers: output/section.npz, output/section.csv");
+    let size = "xmlns='http://www.w3.org/2000/svg' width='720' height='500' stroke-width='1.4' stroke-linecap='round'";
+    let paper = "<rect width='720' height='500' fill='white'/>";
+    fs::write("output/section.svg", format!("<svg {size}>\n{paper}\n{label}\n{dots}</svg>\n"))?;
+    table.save("output/section.npz", Format::Npz)?;
+    table.note("energy", ENERGY);
+    table.note("spin", SPIN);
+    table.save("output/section.parquet", Format::Parquet)?;
+    table.save("output/section.csv", Format::Csv)?;
+    println!(
+        "picture: output/section.svg; numbers: output/section.npz, output/section.parquet, output/section.csv"
+    );
     Ok(())
 }
 

@@ -5,6 +5,7 @@
 //! start: every body is held against that.
 
 use affine_runtime::prelude::*;
+use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};
 
 /// Elastic, in a trap.
 #[affine_model(
@@ -80,8 +81,28 @@ fn main() -> affine_runtime::Result<()> {
             "#".repeat((100.0 * part) as usize)
         );
     }
+    draw(&all)?;
     assert!(stopped == 0 && worst < 1e-8 && all.outputs == BODIES as u32 * OUTPUTS);
     Ok(())
+}
+
+/// The histogram.
+fn draw(all: &Seen) -> affine_runtime::Result<()> {
+    // A folder that cannot be made shows in the file that cannot be written.
+    let _ = std::fs::create_dir_all("output");
+    let bins = all.histogram.iter().enumerate();
+    let steps = bins.flat_map(|(bin, count)| {
+        let (from, part) = (FROM + WIDTH * bin as f64, *count as f64 / f64::from(all.outputs));
+        [(from, part), (from + WIDTH, part)]
+    });
+    let panel = CurvePanel {
+        x: "|phi|".into(),
+        y: "part of all outputs".into(),
+        logarithmic: false,
+        range: None,
+        curves: vec![Curve { category: 0, points: steps.collect() }],
+    };
+    CurveDiagram::new("Ten thousand vibrating bodies", vec![panel]).save_svg("output/statistics.svg")
 }
 
 /// Placements and momenta spread evenly, the same in every run.

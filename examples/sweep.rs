@@ -6,8 +6,8 @@
 //! E = (I + A + 2 B) q'^2 + d (1 - exp(-a q))^2            comes apart where E > d
 //! ```
 //!
-//! in a well of the depth `d` and the width `1/a`. The picture of the boundary goes to `output/`.
-//! `cargo run --release --example sweep 10000000` takes ten million bodies, in the same memory.
+//! in a well of the depth `d` and the width `1/a`. The picture of the boundary and the bodies next to it go to `output/`.
+//! `cargo run --release --features tables --example sweep 10000000` takes ten million bodies, in the same memory.
 
 use std::fs;
 use std::time::Instant;
@@ -15,6 +15,7 @@ use std::time::Instant;
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};
+use affine_runtime::simulate::{Format, Table};
 
 /// A planar body under a potential of Morse in its dilatation, with a soft shear.
 #[affine_model(
@@ -59,6 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // All numbers in the ranges are sound: what is not would be missing, and the count below would show it.
     let bodies = bodies.filter_map(affine_runtime::Result::ok);
     let (mut boundary, mut bound, mut wrong, mut near) = (Vec::new(), 0, 0, 0);
+    let mut at_boundary = Table::of_bodies::<2, PreparedBound>(&["a", "depth"]);
     let begin = Instant::now();
     let mut last = 0.0;
     Ensemble::of(bodies).until(T_END).tolerance(1e-6).progress_bar().fold(
@@ -73,8 +75,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             near += u64::from(is_near);
             wrong += u64::from(!is_near && apart != Ok(energy > d));
             bound += u64::from(apart == Ok(false));
-            if apart == Ok(false) && last == 1.0 {
+            if let (Ok(false), Ok(point), 1.0) = (&apart, &body.end, last) {
                 boundary.push((a, d));
+                at_boundary.push::<2, PreparedBound>(body.number, &[a, d], T_END, point);
             }
             last = if apart == Ok(true) { 1.0 } else { 0.0 };
         },
@@ -99,17 +102,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{wrong} wrong of {bodies}, {} columns",
         boundary.len()
     );
+    fs::create_dir_all("output")?;
+    at_boundary.save("output/sweep.parquet", Format::Parquet)?;
+    println!("the bodies at it: output/sweep.parquet");
     draw(boundary, (0..=100).map(|k| 1.0 + 0.02 * f64::from(k)).map(|a| (a, exact(a))).collect())
 }
 
 fn draw(found: Vec<(f64, f64)>, exact: Vec<(f64, f64)>) -> Result<(), Box<dyn std::error::Error>> {
-    fs::create_dir_all("output")?;
     let curves = vec![Curve { category: 0, points: found }, Curve { category: 1, points: exact }];
     let (x, y) = ("a".into(), "depth d".into());
     let panel = CurvePanel { x, y, logarithmic: false, range: None, curves };
     let diagram =
         CurveDiagram::new("Bodies stay together above (blue: found, red: closed form)", vec![panel]);
-    fs::write("output/sweep.svg", diagram.to_svg()?)?;
+    diagram.save_svg("output/sweep.svg")?;
     println!("picture: output/sweep.svg");
     Ok(())
 }

@@ -1,13 +1,13 @@
 //! Many vibrating bodies at once: 4096 starts around that of one body, in vector lanes, against one simulation after the
 //! other, on one thread and on all of them; and what it costs to give each body a model of its own, outputs or events.
 //!
-//! Run times on shared machines are noise: what counts is the ratio, taken in one run, the median of several.
+//! Run times on shared machines are noise: what counts is the ratio, taken in one run, the median of several. Instructions are none:
+//! `valgrind --tool=callgrind target/release/examples/vibrating_ensemble outputs 512`, or `plain`, `a model each`, `events`.
 
 use std::time::Instant;
 
 use affine_runtime::lanes::{Lanes, Widest};
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Ends;
 
 /// Affine in space, metrical in the body, with a stiff dilatation and a soft shear.
 #[affine_model(
@@ -34,41 +34,39 @@ const TOLERANCE: f64 = 1e-9;
 const ASKED: [&str; 6] = [
     "one by one",
     "in lanes, all threads",
-    "in lanes, one thread",
+    "plain, in lanes, one thread",
     "  a model each",
     "  outputs, 20 each",
     "  events, two functions",
 ];
 
 fn main() -> affine_runtime::Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let count = arguments.get(1).and_then(|count| count.parse().ok()).unwrap_or(BODIES);
     let model = VibratingBody { kappa: 10.0, c: 0.5 }.prepare()?;
-    let starts = (0..BODIES).map(|k| start(&model, k)).collect::<affine_runtime::Result<Vec<Point>>>()?;
-    let models = vec![model; BODIES];
-    let model = &models[0];
-    let plain = || Ensemble::new(model, starts.iter().copied()).until(T_END).tolerance(TOLERANCE);
-    let ends = |ends: Result<Ends<Point>, _>| ends.into_iter().flatten().map(Result::ok).collect::<Vec<_>>();
-    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let starts = (0..count).map(|k| start(&model, k)).collect::<affine_runtime::Result<Vec<Point>>>()?;
+    let models = vec![model; count];
+    let Ok(one_thread) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return Ok(()) };
+    if let Some(asked) = arguments.first() {
+        let asked = ASKED.iter().position(|own| own.trim().starts_with(asked.as_str())).unwrap_or(2);
+        let found = one_thread.install(|| ask(asked, &models, &starts));
+        println!("{}: {} ends, {} outputs and events", ASKED[asked].trim(), found.0.len(), found.1);
+        return Ok(());
+    }
     let mut rates = ASKED.map(|_| Vec::new());
     let (mut pairs, mut counted) = (Vec::new(), [0; 2]);
     for _ in 0..REPEATS {
-        let (alone, rate) = timed(|| one_by_one(model, &starts));
+        let (alone, rate) = timed(|| one_by_one(&models[0], &starts));
         rates[0].push(rate);
-        let (together, rate) = timed(|| ends(plain().run()));
+        let ((together, _), rate) = timed(|| ask(1, &models, &starts));
         rates[1].push(rate);
         pairs = alone.into_iter().zip(together).collect();
-        let Ok(pool) = &one_thread else { continue };
-        pool.install(|| {
-            rates[2].push(timed(|| ends(plain().run())).1);
-            let each = models.iter().zip(&starts).map(|(model, start)| (model, *start));
-            rates[3].push(timed(|| ends(Ensemble::of(each).until(T_END).tolerance(TOLERANCE).run())).1);
-            counted = [0; 2];
-            let outputs = || plain().every(T_END / 19.0).each(|body| counted[0] += body.folded.len());
-            rates[4].push(timed(outputs).1);
-            let sections = || {
-                let entry = |i, k| Event::new("entry", move |_, point: &Point| point.phi()[(i, k)]).rising();
-                vec![entry(0, 1), entry(1, 0)]
-            };
-            rates[5].push(timed(|| plain().events(sections).each(|body| counted[1] += body.events.len())).1);
+        one_thread.install(|| {
+            for asked in 2..ASKED.len() {
+                let ((_, found), rate) = timed(|| ask(asked, &models, &starts));
+                rates[asked].push(rate);
+                counted = [counted[1], found];
+            }
         });
     }
     let worst = pairs.iter().map(|(alone, together)| match (alone, together) {
@@ -86,10 +84,36 @@ fn main() -> affine_runtime::Result<()> {
         let rate = median(rates);
         let (speed, time) = (rate / alone, plain / rate);
         println!(
-            "{name:<24} {rate:>9.0} trajectories a second {speed:>6.2}x, {time:.2} times the plain time"
+            "{name:<28} {rate:>9.0} trajectories a second {speed:>6.2}x, {time:.2} times the plain time"
         );
     }
     Ok(())
+}
+
+/// The ends of all bodies, in the order of what is [asked](ASKED), and how many outputs or events there were.
+fn ask(asked: usize, models: &[PreparedVibratingBody], starts: &[Point]) -> (Vec<Option<Point>>, usize) {
+    let ensemble = || Ensemble::new(&models[0], starts.iter().copied()).until(T_END).tolerance(TOLERANCE);
+    let (mut ends, mut counted) = (Vec::new(), 0);
+    let ran = match asked {
+        3 => {
+            let each = Ensemble::of(models.iter().zip(starts.iter().copied()));
+            each.until(T_END).tolerance(TOLERANCE).run().map(|found| ends = found)
+        }
+        4 => ensemble().every(T_END / 19.0).each(|body| {
+            counted += body.folded.len();
+            ends.push(body.end);
+        }),
+        5 => {
+            let entry = |i, k| Event::new("entry", move |_, point: &Point| point.phi()[(i, k)]).rising();
+            ensemble().events(move || vec![entry(0, 1), entry(1, 0)]).each(|body| {
+                counted += body.events.len();
+                ends.push(body.end);
+            })
+        }
+        _ => ensemble().run().map(|found| ends = found),
+    };
+    // Settings that make no sense would be no ends, and a difference that is no number.
+    (ran.map_or(Vec::new(), |()| ends.into_iter().map(Result::ok).collect()), counted)
 }
 
 /// A body around the benchmark problem.

@@ -23,12 +23,20 @@ const READMES: [&str; 6] = [
     "affine-macros/codegen/README.md",
 ];
 
-/// These and the pages of the guide, with their paths.
+/// These, the pages of the guide and the parts of its gallery, with their paths.
 fn guide() -> Vec<(String, String)> {
-    let pages = fs::read_dir(root().join("affine-runtime/docs")).unwrap();
-    let names = pages.map(|page| page.unwrap().file_name().into_string().unwrap());
-    let names = names.map(|name| format!("affine-runtime/docs/{name}")).chain(READMES.map(str::to_owned));
-    names.map(|name| (name.clone(), text(&name))).collect()
+    let pages = ["affine-runtime/docs", "affine-runtime/docs/gallery"].into_iter().flat_map(|folder| {
+        let pages = files(folder, ".md").into_iter();
+        pages.map(move |name| format!("{folder}/{name}"))
+    });
+    pages.chain(READMES.map(str::to_owned)).map(|name| (name.clone(), text(&name))).collect()
+}
+
+/// Names of the files of a folder that end so.
+fn files(folder: &str, end: &str) -> BTreeSet<String> {
+    let files = fs::read_dir(root().join(folder)).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name.ends_with(end)).collect()
 }
 
 /// Lines that rustdoc hides are shown everywhere else, and statements without a function compile nowhere else.
@@ -68,13 +76,41 @@ fn links_lead_somewhere_and_every_page_is_in_the_guide() {
     let lists = library.split("pages! {").skip(1).map(|list| list.split_once('}').unwrap().0);
     let modules: BTreeSet<&str> = lists.flat_map(str::split_whitespace).collect();
     let pages = guide();
-    let names = pages.iter().filter_map(|(path, _)| path.strip_prefix("affine-runtime/docs/"));
-    let names: BTreeSet<&str> = names.map(|name| name.trim_end_matches(".md")).collect();
+    let names = files("affine-runtime/docs", ".md");
+    let names: BTreeSet<&str> =
+        names.iter().map(|name| name.trim_end_matches(".md")).filter(|name| *name != "gallery").collect();
     assert_eq!(modules, names);
     // A file beside a page is none beside its module.
     for (path, page) in pages.iter().filter(|(path, _)| path.contains("/docs/")) {
         assert_eq!(linked(page).collect::<Vec<_>>(), [""; 0], "{path}");
     }
+}
+
+/// Bytes of all pictures, which travel with the crate and stand in one page of its documentation.
+const PICTURES: u64 = 500_000;
+
+/// The gallery has a text and a picture of each of its parts, and an example of that name.
+#[test]
+fn the_gallery_has_a_picture_of_each_example() {
+    let library = text("affine-runtime/src/lib.rs");
+    let (_, list) = library.split_once("gallery! {\n").unwrap();
+    let listed: BTreeSet<&str> = list.split_once('}').unwrap().0.split_whitespace().collect();
+    let folder = "affine-runtime/docs/gallery";
+    for end in [".md", ".svg"] {
+        let names = files(folder, end);
+        assert_eq!(names.iter().map(|name| name.trim_end_matches(end)).collect::<BTreeSet<_>>(), listed);
+    }
+    let mut size = 0;
+    for name in listed {
+        assert!(text(&format!("{folder}/{name}.md")).starts_with("# "), "{name}");
+        // What rustdoc takes as it is: one element without an empty line.
+        let picture = text(&format!("{folder}/{name}.svg"));
+        assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"), "{name}");
+        assert!(!picture.contains("\n\n"), "{name}");
+        size += picture.len() as u64;
+        program(&root().join("examples"), name);
+    }
+    assert!(size < PICTURES, "{size}");
 }
 
 /// Words of the longest sentence that a reader has to hold together.
@@ -131,12 +167,13 @@ fn after<'a>(words: &[&'a str], flag: &str) -> Option<&'a str> {
 /// The folder of a package of the workspace.
 fn folder(package: Option<&str>) -> PathBuf {
     let folder = match package {
-        None => "",
+        None | Some("affine") => "",
         Some("affine-runtime") => "affine-runtime",
         Some("affine-core") => "affine-runtime/core",
         Some("affine-integrators") => "affine-runtime/integrators",
         Some("affine-codegen") => "affine-macros/codegen",
         Some("affine-allocations") => "tests/allocations",
+        Some("affine-linked") => "tests/linked",
         Some("affine-oracle") => "tests/oracle",
         Some("affine-comparison") => "tests/comparison",
         Some(other) => panic!("no package {other}"),

@@ -56,7 +56,7 @@ use proc_macro::TokenStream;
 /// | `symmetry(space = S, body = B)` | `affine`, `metric`, `none` | a claim: GL(n) or O(n) leaves `T` unchanged; proved or rejected |
 /// | `require(...)` | `positive_definite` | a condition to enforce |
 /// | `emit(...)` | names | what is emitted beyond the default |
-/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle |
+/// | `group` | `unitary` | placements in U(n) instead of GL(n, R): `-A/2 tr Om^2 - B/2 (tr Om)^2`, emitted as its lattice on the circle; a potential is a function of the angles `q1`, .., `qn` |
 /// | `crate` | path | the runtime, where it has another name than `affine_runtime` |
 ///
 /// # Kinetic terms
@@ -136,6 +136,7 @@ use proc_macro::TokenStream;
 /// | `saint_venant_kirchhoff(lambda, mu)` | `lambda/2 (tr E)^2 + mu tr E^2`, `E = (G - 1)/2` |
 /// | `orthogonality(k)` | `k tr((G - 1)^2)` |
 /// | `gas(k)` | `k exp(-2q)` |
+/// | `self_gravity(k)`, n = 3 | `-3/5 k R_F(Q1^2, Q2^2, Q3^2)` with Carlson's integral: a homogeneous ellipsoid in its own gravity, `k = G m^2/r`; a summand by itself |
 ///
 /// A trace is expanded to traces of products:
 ///
@@ -170,13 +171,13 @@ use proc_macro::TokenStream;
 ///
 /// | constraint | velocities | eigenvalues | `dalembert` is |
 /// |---|---|---|---|
-/// | `isochoric` | traceless | `I+A`, `I-A` | kept by a multiplier: Hamilton's equations are those of `(phi, Pi)` without its force |
+/// | `isochoric` | traceless | `I+A`, `I-A` | an energy whose mass matrix depends on `phi` |
 /// | `rigid` | skew | `I-A` | `body_inertia` |
 /// | `conformal` | skew plus multiples of the identity | `I-A`, `I+A+nB` | `D^2` times `body_inertia` |
 ///
-/// Terms of different frames, and `flat_tensor`, have a mass matrix on the Lie algebra that depends on `phi`, factorised as
-/// without the constraint; what is the same on the group counts as one frame, as scalar inertias of body and space where
-/// `phi` is a rotation up to scale. A Hamiltonian stands for the energy of its velocities, restricted to those that are left
+/// Terms of different frames, `flat_tensor`, and `dalembert` of an isochoric body have a mass matrix on the Lie algebra that
+/// depends on `phi`, factorised as without the constraint; what is the same on the group counts as one frame, as scalar
+/// inertias of body and space where `phi` is a rotation up to scale. A Hamiltonian stands for the energy of its velocities, restricted to those that are left
 /// free. A term that vanishes on the group and a potential that is constant there are mistakes; a symmetry is claimed of the
 /// energy without the constraint. Starting points off the constraint by more than 32 roundings times the condition of `phi`
 /// are refused with their defect.
@@ -197,7 +198,7 @@ use proc_macro::TokenStream;
 /// its group.
 ///
 /// The power `dU/dt` of a potential that contains `t` is part of the balance of energy, with forces or alone, but beside
-/// `emit(splitting)`, `emit(nystrom)` and that multiplier.
+/// `emit(splitting)` and `emit(nystrom)`.
 ///
 /// # Metrics
 ///
@@ -231,7 +232,7 @@ use proc_macro::TokenStream;
 /// | `lanes` | the equations over vectors | `Ensemble` |
 /// | `metric` | `metric(&phi)` and `inverse_metric(&phi)`, over `(x_dot, phi_dot)` with `phi_dot` row by row | under a constraint that on the velocities left free |
 /// | `acceleration` | `acceleration(&point)`, of the centre of mass | `acceleration(t, &point)` where it depends on the time |
-/// | `balance` | `balance(t, &point)`, `centre_balance(t, &point)`: `K = phi J phi_dot^T` and both sides of its balance in space and body, (3.6), (3.8), (3.9) | `dalembert` |
+/// | `balance` | `balance(t, &point)`, `centre_balance(t, &point)`: `K = phi Pi`, `phi J phi_dot^T` of `dalembert`, and both sides of its balance in space and body, (3.6), (3.8), (3.9) | energies with a term in `phi_dot`, sums of frames |
 ///
 /// The pieces of `splitting`:
 ///
@@ -250,31 +251,28 @@ use proc_macro::TokenStream;
 ///
 /// | refused | beside | why |
 /// |---|---|---|
-/// | `emit(taylor)`, `emit(tangent)` | `constraint = isochoric` of `dalembert` | there the equations are those of a free body, and the method adds the multiplier step by step |
-/// | `emit(taylor)`, `emit(tangent)` | a potential of single stretches | stretches are found by an iteration, and what follows from the operations of a formula does not follow from it |
+/// | `emit(taylor)` | a potential of single stretches | stretches are found by an iteration, and what follows from the operations of a formula does not follow from it |
 /// | `emit(taylor)` | `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | what a field computes is not known operation by operation |
-/// | `emit(splitting)` | `constraint = isochoric` of `dalembert` | the force of the multiplier depends on all momenta and positions, and no piece has an exact flow |
+/// | `emit(taylor)` | `self_gravity(k)` | its integral is found by an iteration, and not known operation by operation |
 /// | `emit(splitting)` | `constraint = conformal` of `dalembert` | the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients |
-/// | `emit(splitting)` | a sum of different frames | the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known |
+/// | `emit(splitting)` | a mass matrix that depends on `phi` | the mass matrix depends on phi: the flow of the kinetic energy is not known |
 /// | `emit(splitting)` | `custom(field, form)` in `forces` | a force is a piece of its own where it depends on positions alone, and is said to: `custom(field, form, position)` |
 /// | `emit(nystrom)` | a constraint | Nystrom methods integrate q'' = f(t, q); a constraint acts by forces that depend on velocities |
-/// | `emit(nystrom)` | a kinetic energy of affine velocities, a sum of different frames | Nystrom methods integrate q'' = f(t, q); the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot |
+/// | `emit(nystrom)` | a kinetic energy of affine velocities, a mass matrix that depends on `phi` | Nystrom methods integrate q'' = f(t, q); the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot |
 /// | `emit(nystrom)` | a motion without a potential | a body that nothing acts on moves in a straight line, phi = phi0 + t phi_dot0, known in closed form |
 /// | `emit(nystrom)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces` | Nystrom methods integrate q'' = f(t, q); friction and the work of a force depend on velocities |
-/// | `emit(two_polar)` | a constraint, `metrics(...)` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
+/// | `emit(two_polar)` | `metrics(...)` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
+/// | `emit(two_polar)` | `constraint = rigid` or `conformal` | all stretches are equal there, and nothing of the lattice moves |
 /// | `emit(two_polar)` | a potential of the time, a potential of `x` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
 /// | `emit(two_polar)` | `body_translation` | the weight of the centre depends on the stretches, and moves them |
-/// | `emit(two_polar)` | `casimir3`, a sum of different frames | the lattice is that of one quadratic energy of velocities (6.2) to (6.5) |
-/// | `emit(two_polar)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | its equations follow from T and potentials that are formulas |
+/// | `emit(two_polar)` | `casimir3`, a mass matrix that depends on `phi` | the lattice is that of one quadratic energy of velocities (6.2) to (6.5) |
+/// | `emit(two_polar)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | its equations follow from T and potentials that are formulas |
 /// | `emit(ratios)` | a potential, a kinetic energy of `phi_dot` | in exp(q_b - q_a), M + N and M - N the lattice of the Casimirs is rational, (6.2) to (6.4); forces of a potential and (6.5) are not |
-/// | `emit(metric)`, `emit(acceleration)` | a sum of different frames under a constraint | it is derived over all of phi_dot, of which the constraint leaves a part that turns with phi |
-/// | `emit(balance)` | terms other than `dalembert` and `space_translation`, `hamiltonian(...)`, a constraint, `metrics(...)` | K = phi J phi_dot^T is the affine spin, and dK/dt = phi_dot J phi_dot^T + N (3.6), for the energy m/2 |x_dot|^2 + 1/2 tr(phi_dot J phi_dot^T) (2.1) of a motion on all of GL(n) alone |
-/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces` | `constraint = isochoric` of `dalembert` | there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: only potentials go with it |
-/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | `casimir3` | what it leaves conserved is decided for velocities that are linear in the momenta |
-/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential` | `group = unitary` | the lattice of U(n) is that of the Casimir terms alone |
+/// | `emit(balance)` | a kinetic energy of affine velocities, a constraint, `metrics(...)` | K = phi Pi, phi J phi_dot^T of (2.1), is balanced against phi_dot and Pi (3.6): for energies with a term in phi_dot, or terms of space and body, of a motion on all of GL(n) in orthonormal coordinates |
+/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | `casimir3` | what it leaves conserved is decided for velocities that are linear in the momenta |
+/// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | `group = unitary` | the lattice of U(n) is that of the Casimir terms alone |
 /// | a constraint | `metrics(...)` | the group of a constraint is that of orthonormal bases, and points stand in others |
 /// | a constraint | `casimir3` | the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no linear space |
-/// | a sum of different frames | `metrics(...)` | their sum has a mass matrix that depends on phi, and is derived in orthonormal bases |
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
     affine_codegen::expand(args.into(), item.into()).into()

@@ -6,8 +6,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use affine_integrators::RungeKutta8;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::RungeKutta8;
 use affine_runtime::lattice::{
     Lattice, LatticeFlow, LatticeForm, LatticePieces, LatticeSplitting, RatioForm, TwoPolarForm,
 };

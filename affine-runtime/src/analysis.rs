@@ -8,7 +8,7 @@
 //! | motions that symmetries generate | [`relative_equilibrium`], [`Generator`], [`Condition`] |
 //! | whether they are stable | [`RelativeEquilibrium::stability`] |
 //! | how motions depend on their start | [`FlowMatrix`], [`lyapunov_spectrum`] |
-//! | how they depend on fields | [`field_sensitivities`] |
+//! | how they depend on fields, starts and velocities | [`Sensitivities`] |
 //! | how they branch | [`Continuation`], and `branch_diagram` with the feature `report` |
 
 mod branch;
@@ -22,16 +22,14 @@ mod modes;
 mod newton;
 #[cfg(feature = "report")]
 mod pictures;
-mod rates;
 mod relative;
-mod sparse;
 mod spectrum;
 mod stability;
 mod tape;
 
 pub use branch::{Branch, BranchPoint, Continuation, Special};
 pub use error::AnalysisError;
-pub use flow_matrix::{FlowMatrix, LyapunovSpectrum, field_sensitivities, lyapunov_spectrum};
+pub use flow_matrix::{FlowMatrix, LyapunovSpectrum, Sensitivities, lyapunov_spectrum};
 pub use generator::Generator;
 pub use jacobian::JacobianMatrix;
 pub use modes::{Mode, ModeClass, Modes};

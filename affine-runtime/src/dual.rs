@@ -5,7 +5,13 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
+#[cfg(feature = "analysis")]
+use crate::model::StateVector;
 use crate::scalar::{Real, Scalar};
+
+/// Squares of stretches that differ by this part of their sum coincide, for derivatives: these err by about as much then, and
+/// by the rounding of numbers over the difference otherwise.
+const COINCIDENT: f64 = 1e-8;
 
 /// `value + epsilon slope` with `epsilon^2 = 0`: what is computed with it is differentiated.
 ///
@@ -29,6 +35,14 @@ impl<T: Scalar> Dual<T> {
     fn chain(self, value: T, derivative: T) -> Self {
         Self { value, slope: derivative * self.slope }
     }
+}
+
+/// A state that does not change.
+#[cfg(feature = "analysis")]
+pub(crate) fn fixed<T: Scalar, S: StateVector<Dual<T>>>(values: &[T]) -> S {
+    let mut state = S::zeros();
+    state.as_mut().iter_mut().zip(values).for_each(|(both, value)| *both = Dual::fixed(*value));
+    state
 }
 
 impl<T: Scalar> Add for Dual<T> {
@@ -109,8 +123,20 @@ impl<T: Scalar> Scalar for Dual<T> {
     fn constant(hi: f64, lo: f64) -> Self {
         Self::fixed(T::constant(hi, lo))
     }
+    fn told_apart([a, b]: [Self; 2], size: Self) -> [Self; 2] {
+        let bound = size.value * T::constant(COINCIDENT, 0.0);
+        if a.value.abs().max(b.value.abs()).max(bound) == bound {
+            [Self::fixed(a.slope), Self::fixed(b.slope)]
+        } else {
+            [a, b]
+        }
+    }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
+        // What does not change has a root that does not, of zero too.
+        if self.slope == T::zero() {
+            return Self::fixed(root);
+        }
         self.chain(root, T::one() / (root + root))
     }
     fn cbrt(self) -> Self {

@@ -1,4 +1,6 @@
-//! Inertias of shapes: the co-moving quadrupole `J = int rho a a^T dV` about the centre of mass (section 2 of Slawianowski et
+//! Inertias: those of shapes, and the tensors of a kinetic energy at a placement.
+//!
+//! Those of shapes are the co-moving quadrupole `J = int rho a a^T dV` about the centre of mass (section 2 of Slawianowski et
 //! al.), which `dalembert = j` and `body_inertia = j` take.
 //!
 //! `J` is not the tensor of rotations, `I = tr(J) 1 - J`: a homogeneous ball has `J = m r^2/5` and `I = 2 m r^2/5`.
@@ -15,7 +17,14 @@
 //! # Ok::<(), affine_runtime::Error>(())
 //! ```
 
-use crate::frames::{Matrix, Vector};
+use core::array::from_fn;
+
+use crate::dual::Dual;
+use crate::frames::{Comoving, Matrix, Spatial, Vector};
+use crate::model::{Model, Velocity};
+
+/// `K^i_j^k_l` as `K[i][j][k][l]`: what takes an affine velocity to an affine spin, `X^i_j = K^i_j^k_l O^l_k`.
+type Tensor<const N: usize> = [[[[f64; N]; N]; N]; N];
 
 /// Particles as a body sees them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +72,48 @@ pub fn cylinder(mass: f64, radius: f64, height: f64) -> Matrix<3> {
 /// not flat; `prepare()` refuses what is not.
 pub fn from_rotational(inertia: &Matrix<3>) -> Matrix<3> {
     Matrix::<3>::identity() * (inertia.trace() / 2.0) - inertia
+}
+
+/// The tensor of a kinetic energy seen from the body at the placement `phi`: `Sigma_hat^A_B = L^A_B^C_D Omega_hat^D_C`, as
+/// `L[A][B][C][D]`.
+///
+/// Constant for energies that are affine in space, `L` of (4.1) and (4.6); for those that are affine in the body it is `R` carried
+/// there, (4.13). Without the centre of mass, and whatever constraint the model has. Not for `casimir3`.
+pub fn comoving_tensor<const N: usize, M: Model<N>>(
+    model: &M,
+    phi: &Matrix<N>,
+) -> Comoving<[[[[f64; N]; N]; N]; N]> {
+    let placed = phi.map(Dual::fixed);
+    Comoving(second_derivatives(model, &placed, |velocity| placed * velocity))
+}
+
+/// The tensor of a kinetic energy seen from space at the placement `phi`: `Sigma^i_j = R^i_j^k_l Omega^l_k`, as
+/// `R[i][j][k][l]`.
+///
+/// Constant for energies that are affine in the body, `R` of (4.2) and (4.8); for those that are affine in space it is `L` carried
+/// there, (4.12). Without the centre of mass, and whatever constraint the model has. Not for `casimir3`.
+pub fn spatial_tensor<const N: usize, M: Model<N>>(
+    model: &M,
+    phi: &Matrix<N>,
+) -> Spatial<[[[[f64; N]; N]; N]; N]> {
+    let placed = phi.map(Dual::fixed);
+    Spatial(second_derivatives(model, &placed, |velocity| velocity * placed))
+}
+
+/// `d^2 T/dO^j_i dO^l_k` of a quadratic `T`: its derivative along one unit velocity, at the other.
+fn second_derivatives<const N: usize, M: Model<N>>(
+    model: &M,
+    phi: &Matrix<N, Dual<f64>>,
+    flat: impl Fn(Matrix<N, Dual<f64>>) -> Matrix<N, Dual<f64>>,
+) -> Tensor<N> {
+    let at = |i: usize, j: usize, k: usize, l: usize| {
+        let mut affine = Matrix::<N, Dual<f64>>::zeros();
+        affine[(l, k)].value = 1.0;
+        affine[(j, i)].slope = 1.0;
+        let velocity = Velocity { x_dot: Vector::<N, Dual<f64>>::zeros(), phi_dot: flat(affine) };
+        model.kinetic_energy(phi, &velocity).slope
+    };
+    from_fn(|i| from_fn(|j| from_fn(|k| from_fn(|l| at(i, j, k, l)))))
 }
 
 fn diagonal<const N: usize>(entries: [f64; N]) -> Matrix<N> {

@@ -35,6 +35,7 @@
 //! | you want | page |
 //! |---|---|
 //! | to begin | [`guide::first_run`] |
+//! | to see a motion, and what was seen | [`guide::pictures`], [`guide::gallery`] |
 //! | the model of a paper | [`guide::models`] |
 //! | every key of the attribute | [`affine_model`] |
 //! | energies, potentials, constraints, forces | [`guide::energies`], [`guide::potentials`], [`guide::constraints`], [`guide::forces`] |
@@ -57,7 +58,8 @@
 //! | [`analysis`] | Jacobians, equilibria, stability, branches |
 //! | [`decompose`], [`lattice`] | stretches, polar and two-polar form |
 //! | [`variation`], [`dual`], [`parametric`] | derivatives |
-//! | [`integrate`] | the integrators alone |
+//! | [`bracket`] | Poisson brackets of functions of a point |
+//! | [`elliptic`] | the integrals that self-gravity consists of |
 //!
 //! # Names
 //!
@@ -78,25 +80,30 @@
 //! | feature | gives |
 //! |---|---|
 //! | `macros` (default) | the attribute |
-//! | `std` (default) | [`simulate`]; without it models, conversions and integrators, without allocation |
+//! | `std` (default) | [`simulate`]; without it models and conversions, without allocation |
 //! | `csv` (default) | tables of trajectories |
-//! | `report` | pictures, error against run time |
+//! | `report` | pictures, pages on which the body moves, error against run time |
+//! | `gltf` | [`gltf`]: motions for viewers and modellers |
 //! | `analysis` | [`analysis`]: Jacobians, equilibria, stability, branches |
 //! | `parallel` | ensembles on all processors |
 //! | `progress` | a bar that shows how many bodies of an ensemble are done |
 //! | `rand` | starts of ensembles that are drawn, `starts` |
-//! | `serde` | points, tables and checkpoints that can be written and read, runs and descriptions that can be written |
+//! | `serde` | points, runs, bodies, stops, tables, checkpoints and descriptions that can be written and read |
 //! | `approx` | points that `assert_relative_eq!` compares |
-//! | `npy` | tables as archives of NumPy arrays |
+//! | `npy`, `parquet` | tables as archives of NumPy arrays, or as Parquet |
 //! | `double-double` | numbers of 31 digits |
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
+pub mod bracket;
 #[cfg(feature = "std")]
 pub mod counting;
 pub mod dual;
+pub mod elliptic;
 pub mod force;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 pub mod inertia;
 pub mod lattice;
 pub mod material;
@@ -118,8 +125,11 @@ pub use affine_core::{
     balance, conserved, decompose, error, frames, geodesic, kinematics, metrics, model, parametric, scalar,
     state,
 };
-pub use affine_integrators as integrate;
-pub use affine_integrators::lanes;
+pub(crate) use affine_integrators as integrate;
+/// Numbers that are several, side by side: bodies of an ensemble in the vectors of a processor.
+pub mod lanes {
+    pub use affine_integrators::lanes::{F64x8, F64x16, FastF64x8, Lanes, Widest};
+}
 
 /// What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
 pub mod capability {
@@ -127,16 +137,11 @@ pub mod capability {
     pub use affine_core::capability::{InLanes, SecondOrderEquations, Splitting, Taylor};
 }
 
-/// State vectors, and what is known of their equations.
-pub mod system {
-    pub use affine_core::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum};
-}
-
 /// What of the other crates is for this one alone.
 mod inner {
-    #[cfg(feature = "std")]
-    pub(crate) use affine_core::__private::gathered;
     pub(crate) use affine_core::__private::numerics::*;
+    #[cfg(feature = "std")]
+    pub(crate) use affine_core::__private::{Unconstrained, gathered};
     pub(crate) use affine_integrators::__private::accumulate;
     pub(crate) use affine_integrators::__private::runs::*;
 }
@@ -180,7 +185,9 @@ macro_rules! pages {
         #[doc = include_str!(concat!("../docs/", stringify!($page), ".md"))]
         ///
         /// [`Dual`]: crate::dual::Dual
+        /// [`elliptic`]: crate::elliptic
         /// [`Ensemble`]: crate::simulate::Ensemble
+        /// [`poisson_bracket`]: crate::bracket::poisson_bracket
         /// [`Event`]: crate::simulate::Event
         /// [`Flow`]: crate::simulate::Flow
         /// [`Member`]: crate::simulate::Member
@@ -193,6 +200,23 @@ macro_rules! pages {
         /// [`Variation`]: crate::variation::Variation
         pub mod $page {}
     )* };
+}
+
+/// The page of pictures: of each example its text and its picture, which stand in `docs/gallery/` under its name.
+#[cfg(all(doc, feature = "macros", feature = "std"))]
+macro_rules! gallery {
+    ($($example:ident)*) => {
+        #[doc = include_str!("../docs/gallery.md")]
+        $(
+            #[doc = ""]
+            #[doc = include_str!(concat!("../docs/gallery/", stringify!($example), ".md"))]
+            // Wider than a phone, where it can be moved.
+            #[doc = "\n<div style=\"overflow-x: auto\">"]
+            #[doc = include_str!(concat!("../docs/gallery/", stringify!($example), ".svg"))]
+            #[doc = "</div>\n"]
+        )*
+        pub mod gallery {}
+    };
 }
 
 /// Pages to read, one a subject; [`first_run`](guide::first_run) is where to begin.
@@ -216,25 +240,31 @@ macro_rules! pages {
 /// | [`mistakes`](guide::mistakes) | what goes wrong most often |
 /// | [`analysis`](guide::analysis) | equilibria, stability, branches |
 /// | [`elsewhere`](guide::elsewhere) | the equations in other tools, Jacobians |
+/// | [`pictures`](guide::pictures) | pictures, pages that move, and files for viewers |
 /// | [`errata`](guide::errata) | where this crate and the paper differ |
+/// | [`gallery`](guide::gallery) | the examples, with pictures |
 #[cfg(all(doc, feature = "macros", feature = "std"))]
 pub mod guide {
     pages! {
         first_run models energies potentials constraints forces events long_runs bits methods ensembles frame_loops reading lattice
         mistakes errata
     }
-    // Their programs need the feature.
+    gallery! {
+        drunk_missile planar_geodesics phase_portrait sutherland vibrating_body section sweep statistics falling_bodies
+        ellipsoids gas_cloud work_precision
+    }
+    // Their programs need these features.
+    #[cfg(any(not(doctest), all(feature = "gltf", feature = "report")))]
+    pages! {
+        pictures
+    }
     #[cfg(any(not(doctest), feature = "analysis"))]
     pages! {
         analysis elsewhere
     }
 }
 
-/// The examples of the README files, compiled.
+/// The examples of the README, compiled.
 #[cfg(all(doctest, feature = "macros", feature = "std"))]
-mod readme {
-    #[doc = include_str!("../../README.md")]
-    mod workspace {}
-    #[doc = include_str!("../README.md")]
-    mod package {}
-}
+#[doc = include_str!("../README.md")]
+mod readme {}

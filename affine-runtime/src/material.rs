@@ -1,14 +1,16 @@
-//! Material points of a body, and moments about points of space (Slawianowski et al., sections 2 and 3).
+//! Material points of a body and rates of its deformation, and moments about points of space (Slawianowski et al., sections 2 to
+//! 4).
 
 use crate::frames::{Comoving, Matrix, Spatial, Vector, inverse};
 use crate::kinematics::{AffineMomentum, InertialQuadrupole, LinearVelocity};
 use crate::model::Velocity;
 use crate::scalar::Real;
-use crate::state::Phase;
+use crate::state::{Euclidean, Phase};
 
 /// Where material points are and how they move, and moments about points other than the origin of space.
 ///
-/// The body point `a` counts from the centre of mass, in the bases that the model is stated in; nothing here needs a metric.
+/// The body point `a` counts from the centre of mass, in the bases that the model is stated in; nothing but the rates needs a
+/// metric.
 ///
 /// ```
 /// use affine_runtime::material::Material;
@@ -49,6 +51,24 @@ pub trait Material<const N: usize, T: Real = f64>: Phase<N, T> {
         a: &Vector<N, T>,
     ) -> Comoving<LinearVelocity<N, T>> {
         Comoving(LinearVelocity(inverse(self.phi()) * self.velocity_of(velocity, a)))
+    }
+
+    /// The rate `dG/dt = phi_dot^T phi + phi^T phi_dot = Omega_hat^T G + G Omega_hat`.
+    fn green_rate(&self, velocity: &Velocity<N, T>) -> Comoving<Matrix<N, T>>
+    where
+        Self: Euclidean,
+    {
+        let half = velocity.phi_dot.tr_mul(self.phi());
+        Comoving(half + half.transpose())
+    }
+    /// The rate `dC/dt = -(Omega^T C + C Omega)`, by which the acceleration of the drunk missile is stated (section 4).
+    fn cauchy_rate(&self, velocity: &Velocity<N, T>) -> Spatial<Matrix<N, T>>
+    where
+        Self: Euclidean,
+    {
+        let inverse = inverse(self.phi());
+        let half = inverse.tr_mul(&inverse) * velocity.phi_dot * inverse;
+        Spatial(-(half + half.transpose()))
     }
 
     /// The total affine momentum about the point `o` of space: `I(o) = (x - o) p^T + Sigma`. The angular momentum about `o` is

@@ -4,6 +4,7 @@ pub use affine_core::__private::*;
 pub use affine_integrators::__private::*;
 
 pub use crate::dual::Dual;
+pub use crate::elliptic::ellipsoid::{ellipsoidal, ellipsoidal_slopes};
 pub use crate::lattice::conversion::LatticeFrame;
 pub use crate::lattice::pieces::{rotation, turned};
 pub use crate::lattice::{

@@ -13,7 +13,7 @@
 //! - **Steps, rejected steps, evaluations** of the right-hand side. They do not depend on the machine and repeat
 //!   exactly: compare methods with the same right-hand side by them. Taylor series are not counted in these but in series;
 //!   the table shows the evaluations that they are worth with a `~`, since that is derived from operations, see
-//!   [`Statistics::series_worth`](crate::integrate::Statistics::series_worth).
+//!   [`Statistics::series_worth`](affine_integrators::Statistics::series_worth).
 //! - **Run time** from phase point to phase point: reduction, integration, the check of every accepted state, the
 //!   energy at both ends. It is the median of the repeats, by the monotonic clock, after one run that is not
 //!   timed. No output on the way is asked for.
@@ -38,7 +38,8 @@
 //!
 //! [`Trajectory::save_svg`](crate::Trajectory::save_svg) draws the motion, the log-stretches and the drift of what
 //! should be conserved. Documents are well-formed SVG 1.1, the same bytes for the same data.
-//! [`Trajectory::save_html`](crate::Trajectory::save_html) writes a page on which the body moves.
+//! [`Trajectory::save_html`](crate::Trajectory::save_html) writes a page on which the body moves, and
+//! [`Trajectory::page`](crate::Trajectory::page) adds the fields of the model to it.
 
 mod axes;
 mod canvas;
@@ -50,6 +51,7 @@ mod page;
 mod palette;
 mod picture;
 mod reference;
+mod reproduction;
 mod scene;
 mod stability;
 mod stress;
@@ -57,11 +59,13 @@ mod table;
 mod view;
 mod work_precision;
 
-use std::io;
 use std::path::Path;
 
+#[cfg(feature = "analysis")]
+pub(crate) use curves::PANEL;
 pub use curves::{Curve, CurveDiagram, CurvePanel};
 pub use diagram::{WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
+pub use page::Page;
 pub use reference::reference_solution;
 pub use stability::{
     Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
@@ -110,8 +114,12 @@ fn csv_lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
 }
 
 /// Writes a file.
-fn save(path: &Path, contents: io::Result<String>) -> Result<()> {
-    contents
-        .and_then(|contents| std::fs::write(path, contents))
+fn save(path: &Path, contents: &str) -> Result<()> {
+    std::fs::write(path, contents)
         .map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
+}
+
+/// Text of XML or HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -3,8 +3,11 @@
 mod accumulation;
 mod by_equations;
 mod by_radau;
+mod by_rattle;
 mod checkpoint;
 mod choice;
+#[cfg(feature = "csv")]
+mod chunks;
 mod closed_form;
 mod collapse;
 mod conservation;
@@ -20,6 +23,8 @@ mod failed;
 mod fingerprint;
 mod flow;
 mod follow;
+#[cfg(feature = "csv")]
+mod format;
 mod friction;
 mod guard;
 mod interpolant;
@@ -33,6 +38,8 @@ mod npy;
 mod orientation;
 mod outcome;
 mod output;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod point;
 mod power_balance;
 mod progress;
@@ -41,6 +48,8 @@ mod recorder;
 mod root;
 mod round_trip;
 mod run;
+#[cfg(feature = "csv")]
+mod saved;
 mod settings;
 mod signature;
 mod simulation;
@@ -54,25 +63,27 @@ mod velocities;
 mod watcher;
 mod why;
 mod witness;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use crate::error::{Callback, Reason, Setting, Stop};
+pub use affine_integrators::{Failure, FusedArithmetic, Statistics, fused_arithmetic};
 pub use checkpoint::Checkpoint;
-pub use choice::{NYSTROM_TOLERANCE, TAYLOR_TOLERANCE};
 pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble, Member};
 pub use event::{Direction, Event, Occurrence};
 pub use flow::Flow;
-pub use friction::STIFF_FRICTION;
+#[cfg(feature = "csv")]
+pub use format::Format;
 pub use method::Method;
 pub use outcome::{Halt, Outcome};
 pub use power_balance::PowerBalance;
 pub use progress::Progress;
 pub use round_trip::RoundTrip;
-pub use settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, NEAR_DEGENERATE};
 pub use simulation::Simulation;
 pub use table::Table;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
-#[cfg(any(feature = "analysis", feature = "report"))]
-pub(crate) use layout::has_multiplier;
+#[cfg(feature = "report")]
+pub(crate) use settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE};

@@ -1,6 +1,5 @@
 //! Pictures without the feature that draws them: calls do not compile, and the compiler names the feature.
 
-use std::io;
 use std::path::Path;
 
 use crate::error::Result;
@@ -20,10 +19,7 @@ pub trait Pictures {
 
 impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// Does not compile without the feature `report`.
-    ///
-    /// # Errors
-    /// None: it cannot be called.
-    pub fn to_svg(&self) -> io::Result<String>
+    pub fn to_svg(&self) -> String
     where
         Self: Pictures,
     {
@@ -35,6 +31,14 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// # Errors
     /// None: it cannot be called.
     pub fn save_svg(&self, _path: impl AsRef<Path>) -> Result<()>
+    where
+        Self: Pictures,
+    {
+        self.never()
+    }
+
+    /// Does not compile without the feature `report`.
+    pub fn page(&self)
     where
         Self: Pictures,
     {

@@ -3,7 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use affine_runtime::inertia::{Particles, block, cylinder, ellipsoid, from_rotational, particles};
+use affine_runtime::inertia::{
+    Particles, block, comoving_tensor, cylinder, ellipsoid, from_rotational, particles, spatial_tensor,
+};
 use affine_runtime::kinematics::InertialQuadrupole;
 use affine_runtime::material::Material;
 use affine_runtime::prelude::*;
@@ -149,4 +151,83 @@ fn energy_moments_and_velocities_are_those_of_the_particles() {
     assert_same(angular, dipole - dipole.transpose());
     let origin = point.affine_momentum_about(&Vector::<3>::zeros());
     assert_same(origin.0.0, point.total_affine_momentum().0.0);
+}
+
+/// A symmetric tensor without a pattern, `K[(A,B)][(C,D)]` as a matrix of pairs.
+fn pairs() -> [[f64; 9]; 9] {
+    let entry =
+        |a: usize, b: usize| ((a * b + 3 * (a + b)) as f64).sin() * 0.1 + if a == b { 2.0 } else { 0.0 };
+    core::array::from_fn(|a| core::array::from_fn(|b| entry(a, b)))
+}
+
+/// `1/2 K[nA+B][nC+D] Oh[A][B] Oh[C][D]`, affine in space.
+#[affine_model(dim = 3, kinetic(body_tensor = k))]
+struct Left {
+    k: [[f64; 9]; 9],
+}
+
+/// The same over `Om`, affine in the body.
+#[affine_model(dim = 3, kinetic(space_tensor = k))]
+struct Right {
+    k: [[f64; 9]; 9],
+}
+
+/// (4.6), (4.12) of an energy that is affine in space, (4.8), (4.13) of one that is affine in the body: what was stated, what
+/// `phi` carries to the other side, and the spins that both give.
+#[test]
+fn tensors_of_kinetic_energies() {
+    let k = pairs();
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
+    let rate = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    let inverse = phi.try_inverse().unwrap();
+    // Sigma^A_B = dT/dO^B_A.
+    let stated = |a: usize, b: usize, c: usize, d: usize| k[3 * b + a][3 * d + c];
+    let all = || (0..81).map(|m| [m / 27, m / 9 % 3, m / 3 % 3, m % 3]);
+    let spin = |tensor: &[[[[f64; 3]; 3]; 3]; 3], velocity: &Matrix<3>| {
+        Matrix::<3>::from_fn(|i, j| {
+            (0..9).map(|m| tensor[i][j][m / 3][m % 3] * velocity[(m % 3, m / 3)]).sum::<f64>()
+        })
+    };
+    let close = |found: f64, known: f64| assert!((found - known).abs() < 1e-13, "{found} {known}");
+    let left = Left { k }.prepare().unwrap();
+    let (body, space) = (comoving_tensor(&left, &phi).0, spatial_tensor(&left, &phi).0);
+    let start = left.at_velocity(phi, rate).unwrap();
+    for [a, b, c, d] in all() {
+        close(body[a][b][c][d], stated(a, b, c, d));
+        let carried = all().map(|[e, f, g, h]| {
+            phi[(a, e)] * inverse[(f, b)] * phi[(c, g)] * inverse[(h, d)] * stated(e, f, g, h)
+        });
+        close(space[a][b][c][d], carried.sum());
+    }
+    assert_same(spin(&body, &(inverse * rate)), start.sigma_hat().0.0);
+    assert_same(spin(&space, &(rate * inverse)), start.sigma().0.0);
+
+    let right = Right { k }.prepare().unwrap();
+    let (body, space) = (comoving_tensor(&right, &phi).0, spatial_tensor(&right, &phi).0);
+    let start = right.at_velocity(phi, rate).unwrap();
+    for [i, j, k, l] in all() {
+        close(space[i][j][k][l], stated(i, j, k, l));
+        let carried = all().map(|[e, f, g, h]| {
+            inverse[(i, e)] * phi[(f, j)] * inverse[(k, g)] * phi[(h, l)] * stated(e, f, g, h)
+        });
+        close(body[i][j][k][l], carried.sum());
+    }
+    assert_same(spin(&body, &(inverse * rate)), start.sigma_hat().0.0);
+    assert_same(spin(&space, &(rate * inverse)), start.sigma().0.0);
+}
+
+/// `dG/dt` and `dC/dt` against differences along `phi + t phi_dot`.
+#[test]
+fn rates_of_the_deformation_tensors() {
+    #[affine_model(dim = 3, kinetic(dalembert = 1))]
+    struct Free;
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
+    let rate = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    let at = |t: f64| Free.at_velocity(phi + rate * t, rate).unwrap();
+    let (start, h) = (at(0.0), 1e-5);
+    let velocity = Free.velocity(&start);
+    let green = (at(h).green().0.0 - at(-h).green().0.0) / (2.0 * h);
+    let cauchy = (at(h).cauchy().0.0 - at(-h).cauchy().0.0) / (2.0 * h);
+    assert!((start.green_rate(&velocity).0 - green).norm() < 1e-9);
+    assert!((start.cauchy_rate(&velocity).0 - cauchy).norm() < 1e-8);
 }

@@ -1,8 +1,8 @@
 //! Order, accuracy and cost of the Runge-Kutta-Nystrom methods on a nonlinear, non-autonomous problem with a known solution.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::integrate::nystrom::{SecondOrder, Tableau};
-use affine_runtime::integrate::{Failure, RungeKuttaNystrom, Statistics};
+use affine_integrators::nystrom::{SecondOrder, Tableau};
+use affine_integrators::{Failure, RungeKuttaNystrom, Statistics};
 use affine_runtime::model::{Group, Quantity};
 
 const MASSES: [f64; 2] = [2.0, 0.5];

@@ -2,12 +2,12 @@
 //! have fused multiply-adds, the bits of single components are those of lanes, `cargo test --test ensembles`.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::__private::numerics::{IS_FUSED, Portable};
-use affine_runtime::integrate::{RungeKutta5, RungeKutta8, is_fused};
+use affine_core::system::Packing;
+use affine_integrators::{FusedArithmetic, RungeKutta5, RungeKutta8, fused_arithmetic};
+use affine_runtime::__private::numerics::Portable;
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Method;
-use affine_runtime::system::Packing;
 
 /// P2 of the benchmark problems.
 #[affine_model(
@@ -65,7 +65,7 @@ fn bits(state: &impl AsRef<[f64]>) -> Vec<u64> {
 
 /// Multiply-adds of vectors are rounded once, and those of numbers twice.
 fn only_vectors_are_fused() -> bool {
-    is_fused() && !IS_FUSED
+    fused_arithmetic() == FusedArithmetic::InVectors
 }
 
 /// The same bits; of vectors that are fused the same within what rounding makes of 2.0 units of time at 1e-9.

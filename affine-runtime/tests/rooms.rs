@@ -101,19 +101,40 @@ fn lines_of_code(text: &str) -> usize {
 /// What a model without the standard library is linked against.
 #[test]
 fn the_core_is_small() {
-    // Behind the features `std`, `double-double`, `serde` and `approx`, as lines are that derive what is written.
+    // Behind the features `std`, `double-double`, `serde` and `approx`, as lines are that say how what is written is read.
     let is_left_out = |file: &str| {
-        file.starts_with("error/") || file.starts_with("state/") || file == "scalar/double_double.rs"
+        file.starts_with("error/")
+            || file.starts_with("state/")
+            || file == "scalar/double_double.rs"
+            || file == "interned.rs"
     };
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("core/src");
     let arrows = arrows("core/src");
     let files = arrows.of.keys().filter(|file| !is_left_out(file));
     let read = |file: &String| {
         let text = std::fs::read_to_string(src.join(file)).unwrap();
-        text.replace("#[cfg_attr(feature = \"serde\", derive(serde::Serialize))]", "")
+        let is_code = |line: &&str| {
+            let line = line.trim_start();
+            !line.starts_with("#[cfg_attr(feature = \"serde\", ") && line != "#[cfg(feature = \"serde\")]"
+        };
+        text.lines().filter(is_code).fold(String::new(), |text, line| text + line + "\n")
     };
     let lines: usize = files.map(|file| lines_of_code(&read(file))).sum();
     assert!((4000..=5000).contains(&lines), "{lines} lines");
+}
+
+/// What shows a motion: the page of a run with its script, and glTF.
+#[test]
+fn motions_are_shown_by_little() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let shows = |file: &str| {
+        stem(file) == "gltf" || file.starts_with("report/page") || file == "report/reproduction.rs"
+    };
+    let files: Vec<String> = arrows("src").of.into_keys().filter(|file| shows(file)).collect();
+    let others = ["report/page.js", "report/page.html"].map(str::to_owned);
+    let read = |file: &String| lines_of_code(&std::fs::read_to_string(src.join(file)).unwrap());
+    let lines: usize = files.iter().chain(&others).map(read).sum();
+    assert!((800..=1200).contains(&lines), "{lines} lines in {files:?}");
 }
 
 /// What the feature `analysis` adds.

@@ -1,8 +1,8 @@
 //! Order, accuracy and cost of the Runge-Kutta method on nonlinear, non-autonomous problems with known solutions.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::integrate::runge_kutta::Step;
-use affine_runtime::integrate::{Failure, RungeKutta8, Statistics};
+use affine_integrators::runge_kutta::Step;
+use affine_integrators::{Failure, RungeKutta8, Statistics};
 use affine_runtime::model::{Group, Quantity};
 
 /// Rounding ends the convergence there; larger than the roundoff of a few hundred steps.

@@ -1,9 +1,9 @@
 //! Order, accuracy and cost of the Runge-Kutta method of order 5.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::integrate::RungeKutta5;
-use affine_runtime::integrate::lie::Chart;
-use affine_runtime::integrate::runge_kutta::{DormandPrince54, OneStep};
+use affine_integrators::RungeKutta5;
+use affine_integrators::lie::Chart;
+use affine_integrators::runge_kutta::{DormandPrince54, OneStep};
 use affine_runtime::model::{Constraint, Group, Quantity};
 
 const PAIR: &[Group] = &[Group::new(Quantity::Other("y"), 2)];

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use affine_integrators::Statistics;
 use affine_runtime::capability::InLanes;
-use affine_runtime::integrate::Statistics;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 

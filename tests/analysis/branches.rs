@@ -1,9 +1,13 @@
 //! Branches with folds, bifurcations and collisions that are known.
 
 use affine_runtime::analysis::{
-    Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict, branch_diagram,
+    AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
+    branch_diagram,
 };
+use affine_runtime::force::{Comoving, Force, Motion};
+use affine_runtime::frames::Matrix;
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 use crate::models::{Disc, turning};
 
@@ -49,33 +53,85 @@ fn a_disc_branches_and_then_breaks() {
     }
     let diagram =
         branch_diagram("Discs", &[&round, &elongated], ("S_12", "stretches"), BranchPoint::stretches);
-    let svg = diagram.to_svg().unwrap();
+    let svg = diagram.to_svg();
     assert!(["stable", "unstable", "special points"].iter().all(|name| svg.contains(name)), "{svg}");
     assert!(!svg.contains("undecided"));
     assert!(elongated.points.len() > 10 && elongated.points.last().unwrap().stretches()[0] > 2.5);
 }
 
-/// Rows "rotating disc, fold in omega": at `a = sqrt e`, `omega = sqrt(kappa/(4 e I))`, against the velocity and not against the
-/// momentum; the disc is stable on either side.
+/// With friction eigenvalues tell: one is zero where a body buckles, and two are imaginary where a force that follows it flutters.
 #[test]
-fn a_fold_in_velocity_changes_no_stability() {
-    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = q^2 + neo_hookean(1))]
-    struct Harmonic;
-    let start = |omega: f64| Harmonic.at_velocity(Matrix::<2>::identity(), turning(omega)).unwrap();
-    let turn = [Generator::rotation(1, 2)];
-    let by_velocity = |omega: f64| Ok((Harmonic, vec![Condition::Velocity(0, omega)]));
-    let branch = Continuation::new(&turn, (0.2, 1.0), 0.15, by_velocity).run(&start(0.3), 0.3).unwrap();
-    let folds = only(&branch, Special::Fold);
-    assert_eq!(branch.special.len(), 1, "{branch}");
-    assert!((folds[0].parameter - 0.4288819424803534).abs() < 1e-12, "{branch}");
-    assert!((folds[0].stretches()[0] - 0.5_f64.exp()).abs() < 1e-9, "{branch}");
-    let stable = |point: &BranchPoint<2, _>| point.stability.verdict == StabilityVerdict::Stable;
-    assert!(branch.points.iter().all(stable));
+fn friction_lets_branches_be_told() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = (phi[1,1] - 1)^2 + (phi[2,2] - 1)^2 + phi[2,1]^2 + phi[1,2]^4/4 - a/2*phi[1,2]^2,
+        dissipation(body_inertia = 0.3)
+    )]
+    struct Buckling {
+        a: f64,
+    }
+    let family = |a: f64| Ok((Buckling { a }.prepare()?, Vec::new()));
+    let model = Buckling { a: -1.0 }.prepare().unwrap();
+    let one = Matrix::<2>::identity();
+    let guess = model.at_velocity(one, one * 0.0).unwrap();
+    let branch = Continuation::new(&[], (-1.5, 1.0), 0.1, family).run(&guess, -1.0).unwrap();
+    let [(Special::Bifurcation, point)] = branch.special.as_slice() else { panic!("{branch}") };
+    assert!(point.parameter.abs() < 1e-9, "{branch}");
+    let buckled = Continuation::new(&[], (-0.5, 1.0), 0.1, family).switch(point, 0.1).unwrap();
+    let last = buckled.points.last().unwrap();
+    assert!((last.turn.point.phi()[(0, 1)].powi(2) - last.parameter).abs() < 1e-9, "{buckled}");
+    assert_eq!(last.stability.verdict, StabilityVerdict::Stable);
 
-    let by_momentum = |spin: f64| Ok((Harmonic, vec![Condition::MomentumMap(0, spin)]));
-    let branch = Continuation::new(&turn, (0.5, 4.0), 0.3, by_momentum).run(&start(0.3), 0.7).unwrap();
-    assert!(branch.special.is_empty(), "{branch}");
-    assert!(branch.points.last().unwrap().stretches()[0] > 2.0);
+    // z'' + c z' + (k - i b) z = 0 of z = phi_12 + i phi_21: at b = c sqrt(k) oscillations begin to grow.
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = (phi[1,1] - 1)^2 + (phi[2,2] - 1)^2 + phi[1,2]^2 + phi[2,1]^2,
+        dissipation(body_inertia = 0.3),
+        forces = custom(follower, comoving),
+    )]
+    struct Fluttering {
+        follower: Follower,
+    }
+    let family = |b: f64| Ok((Fluttering { follower: Follower { b } }.prepare()?, Vec::new()));
+    let model = Fluttering { follower: Follower { b: 0.1 } }.prepare().unwrap();
+    let guess = model.at_velocity(one, one * 0.0).unwrap();
+    let branch = Continuation::new(&[], (0.0, 1.0), 0.1, family).run(&guess, 0.1).unwrap();
+    let [(Special::Hopf, point)] = branch.special.as_slice() else { panic!("{branch}{}", branch.to_csv()) };
+    assert!((point.parameter - 0.3 * 2.0_f64.sqrt()).abs() < 1e-9, "{branch}");
+}
+
+/// A force that a potential does not have.
+#[derive(Clone, Copy, Debug)]
+struct Follower {
+    b: f64,
+}
+
+impl Force<2> for Follower {
+    type Form = Comoving;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
+        let b = T::constant(self.b, 0.0);
+        let zero = T::zero();
+        // It pairs with phi^-1 phi_dot as a trace.
+        Matrix::<2, T>::new(zero, b * motion.phi[(0, 1)], -b * motion.phi[(1, 0)], zero)
+    }
+}
+
+/// Where two branches cross there is no single continuation.
+#[test]
+fn crossings_are_no_starts() {
+    let family = |spin: f64| {
+        let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare()?;
+        Ok((disc, vec![Condition::MomentumMap(0, spin)]))
+    };
+    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare().unwrap();
+    let phi = Matrix::<2>::identity() * 1.0511838859648149;
+    let guess = disc.at_velocity(phi, turning(0.300830111875804) * phi).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let refused = Continuation::new(&turn, (0.0, 1.3), 0.1, family).run(&guess, 0.6648270638631039);
+    let expected = AnalysisError::Degenerate { kernel: 3, expected: 1 };
+    assert_eq!(refused.unwrap_err(), expected);
 }
 
 /// A field as the parameter: a body that is pressed along an axis buckles.

@@ -1,88 +1,28 @@
 //! Flow matrices, exponents and sensitivities against closed forms.
 
-use affine_runtime::analysis::{AnalysisError, FlowMatrix, field_sensitivities, lyapunov_spectrum};
+use affine_runtime::analysis::{FlowMatrix, Sensitivities, lyapunov_spectrum};
+use affine_runtime::model::Model;
+use affine_runtime::nalgebra::DMatrix;
 use affine_runtime::prelude::*;
 
-use crate::models::{Disc, turning};
+use crate::models::{Disc, FreeTop, Top, turning};
 
-/// A left-invariant geodesic.
-#[affine_model(dim = 3, kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i))]
-struct Left {
-    i: f64,
-    a: f64,
-    b: f64,
-}
-
-const LEFT: Left = Left { i: 1.0, a: 0.2, b: 0.1 };
-
-fn phi() -> Matrix<3> {
-    Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05)
-}
-
-fn rate() -> Matrix<3> {
-    Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05)
-}
-
-fn assert_near(found: &[f64], expected: &[f64]) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-11, "{found} and not {expected}");
-    }
-}
-
-/// Row "flow matrix", by block exponentials.
-#[test]
-fn a_geodesic_has_its_flow_matrix() {
-    let model = LEFT.prepare().unwrap();
-    let start = model.at_momentum(phi(), Comoving(rate())).unwrap();
-    let mut flow = FlowMatrix::new(&model, (0.0, &start), 1e-13);
-    flow.advance_to(2.0).unwrap();
-    let matrix = flow.matrix();
-    assert_near(&[matrix.trace(), matrix.norm()], &[8.456407389588508, 7.948775410247863]);
-    assert!((matrix.determinant() - 1.0).abs() < 1e-11);
-    let last = [
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.9046084603203056,
-        0.3498715428364138,
-        0.1786028254624438,
-        0.15592336564603645,
-        0.07070144174756722,
-        -0.06724226985536462,
-        0.12029429045230773,
-        0.15080363702201688,
-        0.02469009793212715,
-    ];
-    assert_near(&matrix.row(17).iter().copied().collect::<Vec<_>>(), &last);
-    assert!(flow.defect() < 1e-12, "{}", flow.defect());
-    // And back.
-    flow.advance_to(0.0).unwrap();
-    assert!(flow.matrix().is_identity(1e-10));
-}
-
-/// With a constraint, with the multiplier of one, and with a potential: columns are those of neighbouring motions, and the flow is
+/// With constraints and potentials: columns are those of neighbouring motions, and the flow is
 /// symplectic on what the constraint leaves.
 #[test]
 fn constraints_keep_the_form() {
     #[affine_model(dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2)]
-    struct Multiplied;
+    struct Stretched;
     #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), potential = 0.7*phi[3,3])]
     struct Swung;
     let one = Matrix::<3>::identity();
     let skew = Matrix::<3>::new(0.0, -0.3, 0.2, 0.3, 0.0, -0.5, -0.2, 0.5, 0.0);
     let start =
-        Multiplied.at_velocity(one, skew + Matrix::from_diagonal(&Vector::<3>::new(0.2, -0.3, 0.1))).unwrap();
-    let mut flow = FlowMatrix::new(&Multiplied, (0.0, &start), 1e-12);
+        Stretched.at_velocity(one, skew + Matrix::from_diagonal(&Vector::<3>::new(0.2, -0.3, 0.1))).unwrap();
+    let mut flow = FlowMatrix::new(&Stretched, (0.0, &start), 1e-12);
     flow.advance_to(0.7).unwrap();
     assert!(flow.defect() < 1e-11, "{}", flow.defect());
-    let run = Simulation::new(&Multiplied, start).until(0.7).tolerance(1e-13).run().unwrap();
+    let run = Simulation::new(&Stretched, start).until(0.7).tolerance(1e-13).run().unwrap();
     assert!((run.end().1.phi() - flow.point().phi()).norm() < 1e-10);
     let start = Swung.at_velocity(one, skew).unwrap();
     let mut flow = FlowMatrix::new(&Swung, (0.0, &start), 1e-12);
@@ -101,66 +41,106 @@ fn friction_shrinks_the_form() {
     assert!(flow.defect() > 1e-2, "{}", flow.defect());
 }
 
-/// Row "Lyapunov spectrum": `+-sqrt(-k_i/j)`, and zeros for the row that oscillates; those of an integrable motion vanish within
-/// their bound, and come in pairs.
+/// Potentials of single stretches, from where these coincide.
 #[test]
-fn exponents_are_known_where_motions_are() {
-    #[affine_model(dim = 2, kinetic(dalembert = 2), potential = -0.25*(phi[1,1]^2 + phi[1,2]^2) + 1.5*(phi[2,1]^2 + phi[2,2]^2))]
-    struct Saddle;
-    // On the stable directions, so that the motion stays small.
-    let start = Saddle.at_velocity(Matrix::<2>::identity(), Matrix::<2>::new(-0.5, 0.0, 0.0, 0.0)).unwrap();
-    let spectrum = lyapunov_spectrum(&Saddle, &start, 24.0, 1e-9).unwrap();
-    for (k, expected) in [0.5, 0.5, 0.0, 0.0, 0.0, 0.0, -0.5, -0.5].into_iter().enumerate() {
-        let off = (spectrum.exponents[k] - expected).abs();
-        assert!(off <= spectrum.errors[k] && off < 0.1, "{spectrum:?}");
-    }
-    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();
-    let start = disc.at_velocity(Matrix::<2>::new(1.1, 0.0, 0.0, 1.0), turning(0.3)).unwrap();
-    let spectrum = lyapunov_spectrum(&disc, &start, 60.0, 1e-9).unwrap();
-    for (exponent, error) in spectrum.exponents.iter().zip(&spectrum.errors) {
-        assert!(exponent.abs() <= *error && *error < 0.2, "{spectrum:?}");
+fn stretches_that_coincide_have_a_flow() {
+    #[affine_model(dim = 3, kinetic(dalembert = 1), potential = cosh(2*q1) + cosh(2*q2) + cosh(2*q3) + pairs(cosh(d)))]
+    struct Stretched;
+    let rate = Matrix::<3>::new(0.2, 0.1, -0.3, 0.0, -0.1, 0.2, 0.1, 0.3, 0.1);
+    let start = Stretched.at_velocity(Matrix::<3>::identity(), rate).unwrap();
+    let mut flow = FlowMatrix::new(&Stretched, (0.0, &start), 1e-11);
+    flow.advance_to(1.0).unwrap();
+    assert!(flow.defect() < 1e-9, "{}", flow.defect());
+}
+
+/// Exponents of integrable motions vanish within their bound, which falls like `ln t/t`, and come in pairs.
+fn assert_integrable<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f64>) {
+    for time in [60.0, 240.0_f64] {
+        let spectrum = lyapunov_spectrum(model, start, time, 1e-9).unwrap();
+        for (exponent, error) in spectrum.exponents.iter().zip(&spectrum.errors) {
+            assert!(exponent.abs() <= *error && *error < 4.0 * time.ln() / time, "{time}: {spectrum:?}");
+        }
     }
 }
 
-/// Row "sensitivity", by the coefficients of one geodesic with its momentum held.
 #[test]
-fn fields_move_the_end() {
-    let model = LEFT.prepare().unwrap();
-    let start = model.at_velocity(phi(), phi() * rate()).unwrap();
-    let moved = field_sensitivities(&LEFT, &model, (0.0, &start), 1.5, 1e-13).unwrap();
-    let by_i = [
-        0.7343972375637229,
-        -0.8612081237001055,
-        0.13283437256124828,
-        0.04011048919358406,
-        0.048547694248099925,
-        -0.18193708802359432,
-        -0.8184863253771998,
-        0.12950132871161504,
-        0.2740615993101932,
-    ];
-    assert_near(&moved.column(0).as_slice()[..9], &by_i);
-    let by_a = [
-        -0.8342842280473045,
-        0.35728983163412625,
-        -0.27214089077773673,
-        -0.3783379085037987,
-        -0.16479422928977686,
-        0.29327822779924545,
-        0.6333917860324504,
-        -0.11010108117029309,
-        -0.31329802164003556,
-    ];
-    assert_near(&moved.column(1).as_slice()[..9], &by_a);
-    assert_near(&moved.column(2).as_slice()[..9], &[0.0; 9]);
+fn exponents_of_integrable_motions_vanish() {
+    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();
+    assert_integrable(&disc, &disc.at_velocity(Matrix::<2>::new(1.1, 0.0, 0.0, 1.1), turning(0.3)).unwrap());
+    let skew = Matrix::<3>::new(0.0, -0.3, 0.2, 0.3, 0.0, -0.5, -0.2, 0.5, 0.0);
+    assert_integrable(&FreeTop, &FreeTop.at_velocity(Matrix::<3>::identity(), skew).unwrap());
+    let top = Top { j1: 1.0, j3: 0.5, u: 0.7 }.prepare().unwrap();
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let tilted = Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos);
+    assert_integrable(&top, &top.at_velocity(tilted, tilted * skew).unwrap());
+}
 
-    #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = j))]
+/// The end of a motion.
+fn end<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>) -> DMatrix<f64> {
+    let run = Simulation::new(model, start).until(0.7).tolerance(1e-13).run().unwrap();
+    DMatrix::from_row_slice(
+        1,
+        M::DESCRIPTION.full.iter().map(|one| one.len).sum(),
+        model.flatten(run.end().1).as_ref(),
+    )
+}
+
+/// Its derivative, by differences of order 4.
+fn difference(end: impl Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
+    const H: f64 = 2e-3;
+    ((end(H) - end(-H)) * 8.0 - (end(2.0 * H) - end(-2.0 * H))) / (12.0 * H)
+}
+
+/// Under constraints, that of a multiplier too: by fields where the velocity of the start is held, and by the velocity.
+#[test]
+fn constraints_have_sensitivities() {
+    #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = diag(j, 2)), potential = k/2*tr(G))]
     struct Held {
         j: f64,
+        k: f64,
     }
-    let held = Held { j: 1.0 };
-    let model = held.prepare().unwrap();
-    let start = model.at_velocity(Matrix::<2>::identity(), turning(1.0)).unwrap();
-    let refused = field_sensitivities(&held, &model, (0.0, &start), 1.0, 1e-9);
-    assert_eq!(refused.unwrap_err(), AnalysisError::HasMultiplier);
+    let of = |dj: f64, dk: f64, faster: f64| {
+        let model = Held { j: 1.0 + dj, k: 0.7 + dk }.prepare().unwrap();
+        let rate = Matrix::<2>::new(0.3, -0.5, 0.4, -0.3) * (1.0 + faster);
+        let start = model.at_velocity(Matrix::<2>::identity(), rate).unwrap();
+        (model, start)
+    };
+    let (model, start) = of(0.0, 0.0, 0.0);
+    let found = Sensitivities::of(&Held { j: 1.0, k: 0.7 }, &model, (0.0, &start), 0.7, 1e-12).unwrap();
+    let by = |change: &dyn Fn(f64) -> [f64; 3]| {
+        difference(|h| {
+            let [dj, dk, faster] = change(h);
+            let (model, start) = of(dj, dk, faster);
+            end(&model, start)
+        })
+        .transpose()
+    };
+    let faster = DMatrix::from_column_slice(8, 1, &[0.0, 0.0, 0.0, 0.0, 0.3, -0.5, 0.4, -0.3]);
+    for (found, known) in [
+        (found.by_fields_at_velocity.columns(0, 1).into_owned(), by(&|h| [h, 0.0, 0.0])),
+        (found.by_fields_at_velocity.columns(1, 1).into_owned(), by(&|h| [0.0, h, 0.0])),
+        (&found.by_velocity * faster, by(&|h| [0.0, 0.0, h])),
+    ] {
+        assert!((&found - &known).norm() < 1e-8, "{found}{known}");
+    }
+    // The potential alone does not change the momentum of a velocity.
+    let held = (found.by_fields.column(1) - found.by_fields_at_velocity.column(1)).norm();
+    assert!(held < 1e-12, "{held}");
+
+    let of = |du: f64, faster: f64| {
+        let model = Top { j1: 1.0, j3: 0.5, u: 0.7 + du }.prepare().unwrap();
+        let start = model.at_velocity(Matrix::<3>::identity(), turning(1.0 + faster)).unwrap();
+        (model, start)
+    };
+    let (model, start) = of(0.0, 0.0);
+    let found =
+        Sensitivities::of(&Top { j1: 1.0, j3: 0.5, u: 0.7 }, &model, (0.0, &start), 0.7, 1e-12).unwrap();
+    let turn: Matrix<3> = turning(1.0);
+    let mut faster = DMatrix::zeros(18, 1);
+    (0..9).for_each(|k| faster[(9 + k, 0)] = turn[(k / 3, k % 3)]);
+    let known = difference(|h| {
+        let (model, start) = of(0.0, h);
+        end(&model, start)
+    });
+    assert!((&found.by_velocity * faster - known.transpose()).norm() < 1e-8, "{found:?}");
 }

@@ -40,6 +40,43 @@ pub(crate) struct Missile;
 #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = diag(1, 1.5, 2)))]
 pub(crate) struct Geodesic;
 
+/// The same in the plane.
+#[affine_model(dim = 2, kinetic(casimir2 = 0.3, body_inertia = diag(1, 3)))]
+pub(crate) struct FlatGeodesic;
+
+/// Geodesics that are invariant in space, and in the body.
+#[affine_model(dim = 3, kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i))]
+pub(crate) struct Left {
+    pub(crate) i: f64,
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+}
+#[affine_model(dim = 3, kinetic(casimir2 = a, casimir1_squared = b, space_inertia = i))]
+pub(crate) struct RightGeodesic {
+    pub(crate) i: f64,
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+}
+
+/// What flies in the plane.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
+    potential = hyperbolic_dilatation(10) + neo_hookean(0.5)
+)]
+pub(crate) struct FlatMissile;
+
+/// A disc whose dilatation is a harmonic oscillator.
+#[affine_model(dim = 2, kinetic(dalembert = i), potential = kappa/2*q^2 + neo_hookean(kappa/2))]
+pub(crate) struct Logarithmic {
+    pub(crate) i: f64,
+    pub(crate) kappa: f64,
+}
+
+/// A top of which all axes differ.
+#[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), potential = 0.7*phi[3,3])]
+pub(crate) struct Hanging;
+
 pub(crate) fn turning<const N: usize>(omega: f64) -> Matrix<N> {
     let mut turn = Matrix::<N>::zeros();
     (turn[(1, 0)], turn[(0, 1)]) = (omega, -omega);

@@ -3,9 +3,11 @@
 use affine_runtime::analysis::{
     AnalysisError, Condition, Generator, StabilityVerdict, equilibrium, relative_equilibrium,
 };
+use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
 
-use crate::models::{Disc, Geodesic, Missile, Soft, exponential, turning, unrest};
+use crate::models::{Geodesic, Soft, unrest};
+use crate::rows::assert_paired;
 
 #[test]
 fn a_soft_body_rests_undeformed() {
@@ -16,59 +18,6 @@ fn a_soft_body_rests_undeformed() {
     assert!((green - Matrix::<3>::identity()).norm() < 1e-13, "{green}");
     assert!(rest.point.pi().0.0.norm() < 1e-13);
     assert!(rest.steps < 15, "{}", rest.steps);
-}
-
-/// Rows "rotating disc": the momentum of a disc at stretch `a`, `omega^2 = kappa (1 - a^-4)/(8 I)`.
-#[test]
-fn a_disc_turns_with_its_momentum() {
-    let rows = [
-        (1.0, 4.0, 0.3, 1.1, 0.39811213535568674, 0.963431367560762),
-        (2.0, 5.0, 0.4, 1.05, 0.23538367961168608, 1.0380420270875357),
-    ];
-    for (i, kappa, c1, a, omega, spin) in rows {
-        let disc = Disc { i, kappa, c1 }.prepare().unwrap();
-        let guess = disc.at_velocity(Matrix::<2>::identity() * 1.02, turning(0.8 * omega)).unwrap();
-        let turn = [Generator::rotation(1, 2)];
-        let found = relative_equilibrium(&disc, &guess, &turn, &[Condition::MomentumMap(0, spin)]).unwrap();
-        assert!((found.velocities[0] - omega).abs() < 1e-13, "{found:?}");
-        let stretch = found.point.phi()[(0, 0)].hypot(found.point.phi()[(1, 0)]);
-        assert!((stretch - a).abs() < 1e-13, "{stretch}");
-        let again = relative_equilibrium(&disc, &guess, &turn, &[Condition::Velocity(0, omega)]).unwrap();
-        assert!((again.point.spin().0.0[(0, 1)] - spin).abs() < 1e-12);
-        assert!(unrest(&disc, &found, 50.0) < 1e-9);
-    }
-}
-
-/// Row "planar Riemann": turned in space and in the body at once.
-#[test]
-fn an_ellipse_turns_in_space_and_in_the_body() {
-    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();
-    let (left, right) = (0.6184533328393914, -0.18488413065083675);
-    let phi = Matrix::<2>::new(1.55, 0.0, 0.0, 0.95);
-    let guess = disc.at_velocity(phi, turning(left) * phi + phi * turning(right)).unwrap();
-    let generators = [Generator::rotation(1, 2), Generator::vorticity(1, 2)];
-    let conditions = [Condition::Velocity(0, left), Condition::Velocity(1, right)];
-    let found = relative_equilibrium(&disc, &guess, &generators, &conditions).unwrap();
-    let stretches = [found.point.phi().column(0).norm(), found.point.phi().column(1).norm()];
-    assert!((stretches[0] - 1.6).abs() < 1e-12 && (stretches[1] - 0.9).abs() < 1e-12, "{stretches:?}");
-    assert!(unrest(&disc, &found, 50.0) < 1e-9);
-}
-
-/// Row "steady flight": compressed along the flight.
-#[test]
-fn a_missile_flies_straight() {
-    let guess = Missile.at_velocity(
-        Vector::<3>::zeros(),
-        Matrix::<3>::identity(),
-        Vector::<3>::new(0.4, 0.0, 0.0),
-        Matrix::<3>::zeros(),
-    );
-    let drift = [Generator::translation(1)];
-    let found =
-        relative_equilibrium(&Missile, &guess.unwrap(), &drift, &[Condition::MomentumMap(0, 0.5)]).unwrap();
-    assert!((found.velocities[0] - 0.4156091706895312).abs() < 1e-13);
-    let phi = found.point.phi();
-    assert!((phi.column(0).norm() - 0.9117117644184825).abs() < 1e-13, "{phi}");
 }
 
 /// Geodesics `phi exp(F t)` of an anisotropic inertia: `F` diagonal is one, and a generator of no symmetry is refused.
@@ -87,54 +36,6 @@ fn an_anisotropic_geodesic_needs_a_symmetry() {
     assert!(unrest(&Geodesic, &found, 4.0) < 1e-10);
     let refused = relative_equilibrium(&Geodesic, &guess, &[Generator { body, ..Generator::zero() }], &[]);
     assert!(matches!(refused, Err(AnalysisError::NotASymmetry { .. })), "{refused:?}");
-}
-
-/// Rows "geodesic generator": `phi0 exp(F t)` and `exp(F t) phi0` of isotropic geodesics, where `F` is normal.
-#[test]
-fn normal_matrices_generate_isotropic_geodesics() {
-    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
-    struct Left;
-    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1))]
-    struct Right;
-    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
-    let inverse = phi.try_inverse().unwrap();
-    let one = [Condition::Velocity(0, 1.0)];
-
-    let f = Matrix::<3>::new(0.0, -1.0, 0.5, 1.0, 0.0, 0.25, -0.5, -0.25, 0.0);
-    let guess = Left.at_velocity(phi, phi * f).unwrap();
-    let generator = Generator { space: phi * f * inverse, ..Generator::zero() };
-    let found = relative_equilibrium(&Left, &guess, &[generator], &one).unwrap();
-    let end = Matrix::<3>::new(
-        0.6832727441426091,
-        -0.8338622366615205,
-        0.3127493043664125,
-        0.6108854916102383,
-        0.4331338596790195,
-        0.5236544430630499,
-        -0.5491363453678394,
-        0.2489467951421426,
-        0.8882425160869689,
-    );
-    assert!((exponential(found.zeta.space) * found.point.phi() - end).norm() < 1e-12);
-    assert!(unrest(&Left, &found, 10.0) < 1e-10);
-
-    let f = Matrix::<3>::new(0.3, -0.7, 0.0, 0.7, 0.3, 0.0, 0.0, 0.0, -0.4);
-    let guess = Right.at_velocity(phi, f * phi).unwrap();
-    let generator = Generator { body: inverse * f * phi, ..Generator::zero() };
-    let found = relative_equilibrium(&Right, &guess, &[generator], &one).unwrap();
-    let end = Matrix::<3>::new(
-        1.0921917132471257,
-        -0.5761568346203039,
-        -0.2336833341582722,
-        1.0081846591710273,
-        1.1031066504433034,
-        0.06790405252534522,
-        -0.13406400920712785,
-        0.06703200460356393,
-        0.7038360483374213,
-    );
-    assert!((found.point.phi() * exponential(found.zeta.body) - end).norm() < 1e-12);
-    assert!(unrest(&Right, &found, 2.0) < 1e-10);
 }
 
 /// Metrics and momenta in space: symmetries act in orthonormal bases.
@@ -196,6 +97,54 @@ fn drawn_bodies_turn_on() {
         }
     }
     assert!(ranks.iter().all(|count| *count > 0), "{ranks:?}");
+}
+
+/// Under constraints and with affine inertia: the same, about any axis of space.
+#[test]
+fn drawn_constraints_and_inertias_turn_on() {
+    #[affine_model(
+        dim = 3,
+        kinetic(casimir2 = a, casimir1_squared = 0.1, body_inertia = diag(1, 1.2, 1.5), body_translation = 2),
+        potential = hyperbolic_dilatation(8) + neo_hookean(c)
+    )]
+    struct Affine {
+        a: f64,
+        c: f64,
+    }
+    #[affine_model(dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, j, 1.5)), potential = c*tr(G))]
+    struct Isochoric {
+        j: f64,
+        c: f64,
+    }
+    #[affine_model(dim = 3, constraint = conformal, kinetic(dalembert = diag(1, j, 1.5)), potential = c*q^2)]
+    struct Conformal {
+        j: f64,
+        c: f64,
+    }
+    let (one, none) = (Matrix::<3>::identity(), Vector::<3>::zeros());
+    for k in 0..3 {
+        let turn = Generator::<3>::rotation(k % 3 + 1, (k + 1) % 3 + 1);
+        let draw = |seed: f64| 0.5 + 0.5 * (seed * (k + 1) as f64).sin().abs();
+        let omega = 0.3 * draw(1.7);
+        let rate = turn.space * omega;
+        let affine = Affine { a: 0.3 * draw(0.9), c: draw(2.3) }.prepare().unwrap();
+        assert_stays(&affine, &affine.at_velocity(none, one, none, rate).unwrap(), turn, omega);
+        let isochoric = Isochoric { j: 1.3 * draw(3.1), c: 4.0 * draw(0.7) }.prepare().unwrap();
+        assert_stays(&isochoric, &isochoric.at_velocity(one, rate).unwrap(), turn, omega);
+        let conformal = Conformal { j: 1.3 * draw(3.1), c: 4.0 * draw(0.7) }.prepare().unwrap();
+        assert_stays(&conformal, &conformal.at_velocity(one, rate).unwrap(), turn, omega);
+    }
+}
+
+fn assert_stays<M: Model<3>>(model: &M, guess: &M::Point<f64>, turn: Generator<3>, omega: f64) {
+    let found = relative_equilibrium(model, guess, &[turn], &[Condition::Velocity(0, omega)]).unwrap();
+    let stability = found.stability(model).unwrap();
+    assert_paired(&stability);
+    let time = match stability.verdict {
+        StabilityVerdict::Unstable { rate } => 2.0 / rate,
+        _ => 60.0,
+    };
+    assert!(unrest(model, &found, time) < 1e-8, "{:?}", stability.verdict);
 }
 
 #[test]

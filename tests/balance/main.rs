@@ -287,6 +287,83 @@ balances! {
     spatial 3 [[a, k, e], [k, b, f], [e, f, c]] (a 0 0, b 1 1, c 2 2, k 0 1, e 0 2, f 1 2);
 }
 
+/// Of a sum the kinetic energy depends on `phi`. A term of the body adds nothing to `dSigma/dt`, one of space `[Om, Sigma]`: of
+/// `1/2 tr(phi_dot J phi_dot^T) + I/2 tr(Om Om^T)` and terms of the body `dK/dt = phi_dot J phi_dot^T + I [Om, Om^T] + N`.
+macro_rules! sums {
+    ($($name:ident $n:literal;)*) => { $(
+        #[test]
+        fn $name() {
+            #[affine_model(
+                dim = $n,
+                kinetic(dalembert = 1.5, body_inertia = 0.7, casimir2 = 0.2, space_inertia = i, space_translation = 1.75),
+                potential = (x[1]*x[2] + tr(G*G)/4)*(2 + cos(t)) + sinh(q)^2,
+                emit(balance)
+            )]
+            struct Elastic {
+                i: f64,
+            }
+            #[affine_model(
+                dim = $n,
+                kinetic(dalembert = 1.5, body_inertia = 0.7, space_translation = 1, body_translation = 0.75),
+                dissipation(body_inertia = 0.375),
+                forces = custom(stirring, spatial),
+                emit(balance)
+            )]
+            struct Damped {
+                stirring: Stirring,
+            }
+            for seed in 0..4 {
+                let scene = Scene::<$n>::random(410 + seed);
+                let Velocity { x_dot, phi_dot } = scene.velocity;
+                let (omega, inverse) = (scene.omega(), scene.phi.try_inverse().unwrap());
+                let (moment, force) = scene.forces();
+                let close = |what: &str, found: Matrix<$n>, expected: Matrix<$n>| {
+                    let size = (1.0 + phi_dot.norm_squared() + moment.norm()) * (1.0 + inverse.norm().powi(4));
+                    let error = (found - expected).norm();
+                    assert!(error <= 10.0 * ALGEBRA * size, "{what}: {error:e} of {size:e}");
+                };
+                let model = Elastic { i: 0.6 }.prepare().unwrap();
+                let point = model.at_velocity(scene.x, scene.phi, x_dot, phi_dot).unwrap();
+                let found = model.balance(T0, &point);
+                let flat = phi_dot * phi_dot.transpose() * 1.5;
+                let inertia = flat + (omega * omega.transpose() - omega.transpose() * omega) * 0.6;
+                close("K", found.spin.0, scene.phi * point.pi().0.0);
+                close("dK/dt without forces", found.inertia.0, inertia);
+                close("N", found.moment.0, moment);
+                close("K_hat", found.spin_hat.0, point.pi().0.0 * inverse.transpose());
+                close("N_hat", found.moment_hat.0, inverse * moment * inverse.transpose());
+                let centre = model.centre_balance(T0, &point);
+                assert!((centre.momentum.0 - x_dot * 1.75).norm() <= 1e-13 * x_dot.norm());
+                assert!((centre.force.0 - force).norm() <= 1e-13 * (1.0 + force.norm()));
+                assert_follows(&model, &point, |t, point| {
+                    let (internal, centre) = (model.balance(t, point), model.centre_balance(t, point));
+                    ([internal.rate().0, internal.rate_hat().0], Some([centre.force.0, centre.rate_hat().0]))
+                });
+                // The weight of the centre in the body pulls at phi: phi T_Pi = -m x_dot (phi^-T v_hat)^T.
+                let model = Damped { stirring: Stirring }.prepare().unwrap();
+                let point = model.at_velocity(scene.x, scene.phi, x_dot, phi_dot).unwrap();
+                let found = model.balance(T0, &point);
+                let v_hat = inverse * x_dot;
+                let inertia = flat - x_dot * (inverse.transpose() * v_hat).transpose() * 0.75;
+                close("dK/dt beside a centre", found.inertia.0, inertia);
+                let friction = -scene.phi * scene.omega_hat().transpose() * inverse * 0.375;
+                let stirred = x_dot * scene.x.transpose() * T0
+                    - phi_dot.column(0) * scene.phi.column(0).transpose();
+                close("N of friction and a force", found.moment.0, friction + stirred);
+                assert_follows(&model, &point, |t, point| {
+                    let internal = model.balance(t, point);
+                    ([internal.rate().0, internal.rate_hat().0], None)
+                });
+            }
+        }
+    )* };
+}
+
+sums! {
+    sums_in_the_plane 2;
+    sums_in_space 3;
+}
+
 /// Single stretches are found by an iteration: as the potential `Q_1^4 + Q_2^4 + Q_3^4 = tr G^2` they have the same moment.
 #[test]
 fn of_single_stretches() {

@@ -19,8 +19,6 @@ use affine_tests::tolerances::{FREE_DILATATION, ON_THE_GROUP, UNDER_POTENTIAL};
 trait Confined<const N: usize>: Model<N> + Sized {
     const CONSTRAINT: Constraint;
     const TRANSLATION: bool;
-    /// The momentum is `Pi`, and the constraint acts through its multiplier alone.
-    const MULTIPLIER: bool;
 
     fn body() -> Self;
     fn kinetic() -> Kinetic;
@@ -35,24 +33,13 @@ trait Confined<const N: usize>: Model<N> + Sized {
 
     /// Points on the group with momenta in the dual of its algebra; every other one at `p = 0`.
     fn points(&self) -> Vec<Self::Point<f64>> {
-        let points = starts::<N>(Self::CONSTRAINT).map(|start| match Self::MULTIPLIER {
-            false => self.at_spin(&start).unwrap(),
-            true => {
-                let phi_dot = start.phi * start.spin;
-                let rest = self.at_spin(&Start { spin: Matrix::<N>::zeros(), ..start }).unwrap();
-                self.at_speed(&rest, start.p, phi_dot).unwrap()
-            }
-        });
-        points.collect()
+        starts::<N>(Self::CONSTRAINT).map(|start| self.at_spin(&start).unwrap()).collect()
     }
 
     /// The exact motion through a point that the code may have moved.
     fn reference(&self, point: &Self::Point<f64>) -> Reference {
         let state = exact_state(Self::DESCRIPTION.full.last().unwrap().name(), point);
-        match Self::MULTIPLIER {
-            true => Reference::under(&Self::kinetic(), &state, T0, Self::potential),
-            false => Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, Self::potential),
-        }
+        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, Self::potential)
     }
 }
 
@@ -71,13 +58,9 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
         let kinetic = model.kinetic_energy(point.phi(), &velocity);
         assert_close("T", &[kinetic], &[energy - potential], reference.energy_size(), tolerance);
 
-        let rates = model.free_equations(T0, &model.flatten(&point));
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
-        }
-
-        if M::MULTIPLIER {
-            assert_right_but_for_the_multiplier::<N, M>(&model, &point, rates.as_ref());
         }
 
         let back = model.at_speed(&point, velocity.x_dot, velocity.phi_dot).unwrap();
@@ -92,23 +75,6 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
     }
 }
 
-/// What the emitted rates of `(phi, Pi)` make of `P(Sigma)`, which the multiplier does not change, against the oracle's
-/// constrained motion.
-fn assert_right_but_for_the_multiplier<const N: usize, M: Confined<N>>(
-    model: &M,
-    point: &M::Point<f64>,
-    rates: &[f64],
-) {
-    let state = exact_state(M::DESCRIPTION.full.last().unwrap().name(), point);
-    let reference = Reference::confined(&M::kinetic(), M::CONSTRAINT, &state, T0, M::potential);
-    let phi_dot = model.velocity(point).phi_dot;
-    let pi_dot = Matrix::<N>::from_row_slice(&rates[rates.len() - N * N..]);
-    let sigma_dot = phi_dot * point.pi().0.0 + point.phi() * pi_dot;
-    let mean = Matrix::<N>::identity() * (sigma_dot.trace() / N as f64);
-    reference.assert_rate("phi", &entries(&phi_dot), UNDER_POTENTIAL);
-    reference.assert_rate("Sigma", &entries(&(sigma_dot - mean)), UNDER_POTENTIAL);
-}
-
 /// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
 fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
     let model = M::body();
@@ -117,15 +83,9 @@ fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
         let state = exact_state(spin, &point);
         let condition = M::kinetic().constrained_condition(M::CONSTRAINT, &state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, UNDER_POTENTIAL * condition);
-        if M::MULTIPLIER {
-            assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
-                Reference::under(&M::kinetic(), state, t, M::potential)
-            });
-        } else {
-            assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
-                Reference::confined(&M::kinetic(), M::CONSTRAINT, state, t, M::potential)
-            });
-        }
+        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
+            Reference::confined(&M::kinetic(), M::CONSTRAINT, state, t, M::potential)
+        });
     }
 }
 
@@ -140,14 +100,13 @@ fn lists_are_exact<const N: usize, M: Confined<N>>() {
     };
     let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
     let motions: Vec<Motion> = states.iter().map(motion).collect();
-    let group = (M::CONSTRAINT, M::MULTIPLIER);
-    assert_listed(N, group, M::DESCRIPTION.conserved, &motions, M::TRANSLATION);
+    assert_listed(N, M::CONSTRAINT, M::DESCRIPTION.conserved, &motions, M::TRANSLATION);
     if states.iter().any(held) {
         assert_eq!(M::DESCRIPTION.conserved_at_rest, M::DESCRIPTION.conserved);
     } else {
         let still: Vec<State> = states.iter().map(State::at_rest).collect();
         let motions: Vec<Motion> = still.iter().map(motion).collect();
-        assert_listed(N, group, M::DESCRIPTION.conserved_at_rest, &motions, false);
+        assert_listed(N, M::CONSTRAINT, M::DESCRIPTION.conserved_at_rest, &motions, false);
     }
 }
 
@@ -178,7 +137,7 @@ fn defects_are_refused<const N: usize, M: Confined<N>>() {
         let mut loaded = start;
         loaded.spin[(0, 0)] += 1e-10;
         let (quantity, _) = defect(model.at_spin(&loaded));
-        assert!(["Sigma", "Sigma_hat", "phi_dot"].contains(&quantity), "{quantity}");
+        assert!(["Sigma", "Sigma_hat"].contains(&quantity), "{quantity}");
     }
 }
 
@@ -209,7 +168,7 @@ fn quarters(n: usize, entries: &[i64]) -> Exact {
 }
 
 macro_rules! confined {
-    ($($name:ident: $n:literal $constraint:ident $key:ident $centre:ident $form:ident ($($kinetic:tt)*) [$($term:expr),*]
+    ($($name:ident: $n:literal $constraint:ident $key:ident $centre:ident ($($kinetic:tt)*) [$($term:expr),*]
         $(=> ($($potential:tt)*))? $energy:expr;)*) => { $(
         mod $name {
             #[allow(clippy::wildcard_imports)]
@@ -221,7 +180,6 @@ macro_rules! confined {
             impl Confined<$n> for Body {
                 const CONSTRAINT: Constraint = Constraint::$constraint;
                 const TRANSLATION: bool = confined!(@translation $centre);
-                const MULTIPLIER: bool = confined!(@multiplier $form);
 
                 fn body() -> Self {
                     Body
@@ -266,8 +224,6 @@ macro_rules! confined {
     )* };
     (@translation pinned) => { false };
     (@translation moving) => { true };
-    (@multiplier projected) => { false };
-    (@multiplier multiplier) => { true };
     (@point pinned $model:ident $start:ident) => { $model.at_momentum($start.phi, Comoving($start.spin)) };
     (@point moving $model:ident $start:ident) => {
         $model.at_momentum($start.x, $start.phi, $start.p, Comoving($start.spin))
@@ -380,102 +336,102 @@ fn free_conformal_motion() {
 }
 
 confined! {
-    isochoric_left_2: 2 Isochoric isochoric pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
-    isochoric_left_3: 3 Isochoric isochoric pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
-    isochoric_right_drift_3: 3 Isochoric isochoric moving projected
+    isochoric_left_2: 2 Isochoric isochoric pinned (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
+    isochoric_left_3: 3 Isochoric isochoric pinned (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
+    isochoric_right_drift_3: 3 Isochoric isochoric moving
         (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25) [space(3), casimir2(), space_translation()] none;
-    isochoric_affine_missile_2: 2 Isochoric isochoric moving projected
+    isochoric_affine_missile_2: 2 Isochoric isochoric moving
         (casimir2 = 0.25, body_translation = 1.25) [casimir2(), body_translation()] none;
-    isochoric_missile_3: 3 Isochoric isochoric moving projected
+    isochoric_missile_3: 3 Isochoric isochoric moving
         (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()] none;
-    isochoric_right_missile_2: 2 Isochoric isochoric moving projected
+    isochoric_right_missile_2: 2 Isochoric isochoric moving
         (space_inertia = 1.5, body_translation = 1.25) [space(2), body_translation()]
         => (norm(x)^2/2) |place| place.distance().power(2) * 0.5;
-    isochoric_neo_hookean_3: 3 Isochoric isochoric pinned projected
+    isochoric_neo_hookean_3: 3 Isochoric isochoric pinned
         (space_inertia = 1.5, casimir2 = 0.25) [space(3), casimir2()]
         => (tr(G)*exp(-2*q) - n) |place| place.trace_green() * (place.q() * -2.0).exp() - place.n();
-    isochoric_square_of_green_2: 2 Isochoric isochoric pinned projected (body_inertia = 1.5) [body(2)]
+    isochoric_square_of_green_2: 2 Isochoric isochoric pinned (body_inertia = 1.5) [body(2)]
         => (tr(G*G) + sinh(q)^2) |place| place.trace_green_squared() + place.q().sinh().power(2);
-    isochoric_missile_under_finger_3: 3 Isochoric isochoric moving projected
+    isochoric_missile_under_finger_3: 3 Isochoric isochoric moving
         (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()]
         => (Ct[1,2]^2) |place| place.finger(1, 2).power(2);
-    isochoric_inertia_2: 2 Isochoric isochoric pinned projected
+    isochoric_inertia_2: 2 Isochoric isochoric pinned
         (body_inertia = [[1, 0.5], [0.5, 2]], casimir2 = 0.25)
         [Term::BodyInertia(quarters(2, &[4, 2, 2, 8])), casimir2()] none;
-    isochoric_inertia_3: 3 Isochoric isochoric moving projected
+    isochoric_inertia_3: 3 Isochoric isochoric moving
         (space_inertia = diag(1, 1.5, 2), casimir2 = 0.25, space_translation = 1.25)
         [Term::SpaceInertia(diagonal(&[2, 3, 4])), casimir2(), space_translation()]
         => (phi[1,2]^3) |place| place.phi(1, 2).power(3);
-    isochoric_tensor_2: 2 Isochoric isochoric pinned projected
+    isochoric_tensor_2: 2 Isochoric isochoric pinned
         (body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
         [Term::BodyTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
-    isochoric_diagonal_tensor_2: 2 Isochoric isochoric pinned projected
+    isochoric_diagonal_tensor_2: 2 Isochoric isochoric pinned
         (space_tensor = [[2, 0, 0, 0], [0, 3, 0, 0], [0, 0, -1, 0], [0, 0, 0, 4]])
         [Term::SpaceTensor(quarters(4, &[8, 0, 0, 0, 0, 12, 0, 0, 0, 0, -4, 0, 0, 0, 0, 16]))] none;
-    rigid_left_2: 2 Rigid rigid pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
-    rigid_left_3: 3 Rigid rigid pinned projected (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
-    rigid_affine_missile_3: 3 Rigid rigid moving projected
+    rigid_left_2: 2 Rigid rigid pinned (body_inertia = 1.5, casimir2 = 0.25) [body(2), casimir2()] none;
+    rigid_left_3: 3 Rigid rigid pinned (body_inertia = 1.5, casimir2 = 0.25) [body(3), casimir2()] none;
+    rigid_affine_missile_3: 3 Rigid rigid moving
         (casimir2 = 0.25, body_translation = 1.25) [casimir2(), body_translation()] none;
-    rigid_missile_2: 2 Rigid rigid moving projected
+    rigid_missile_2: 2 Rigid rigid moving
         (body_inertia = 1.5, body_translation = 1.25) [body(2), body_translation()]
         => (norm(x)^2/2 + phi[1,2]) |place| place.distance().power(2) * 0.5 + place.phi(1, 2);
-    rigid_top_3: 3 Rigid rigid pinned projected (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))] none;
-    rigid_heavy_top_3: 3 Rigid rigid moving projected
+    rigid_top_3: 3 Rigid rigid pinned (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))] none;
+    rigid_heavy_top_3: 3 Rigid rigid moving
         (dalembert = diag(1, 1, 2), space_translation = 1.25)
         [Term::DAlembert(diagonal(&[2, 2, 4])), space_translation()] => (phi[3,3]) |place| place.phi(3, 3);
-    rigid_right_top_3: 3 Rigid rigid pinned projected
+    rigid_right_top_3: 3 Rigid rigid pinned
         (space_inertia = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]], casimir2 = 0.25)
         [Term::SpaceInertia(quarters(3, &[4, 2, 0, 2, 8, 1, 0, 1, 12])), casimir2()]
         => (phi[1,2]*phi[2,1]) |place| place.phi(1, 2) * place.phi(2, 1);
-    rigid_dalembert_2: 2 Rigid rigid moving projected
+    rigid_dalembert_2: 2 Rigid rigid moving
         (dalembert = [[1, 0.5], [0.5, 2]], space_translation = 1.25)
         [Term::DAlembert(quarters(2, &[4, 2, 2, 8])), space_translation()] => (x[1]*phi[1,2])
         |place| place.x(1) * place.phi(1, 2);
-    rigid_tensor_2: 2 Rigid rigid pinned projected
+    rigid_tensor_2: 2 Rigid rigid pinned
         (body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
         [Term::BodyTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
-    conformal_left_2: 2 Conformal conformal pinned projected
+    conformal_left_2: 2 Conformal conformal pinned
         (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125) [body(2), casimir2(), casimir1()] none;
-    conformal_left_3: 3 Conformal conformal pinned projected
+    conformal_left_3: 3 Conformal conformal pinned
         (body_inertia = 1.5, casimir2 = 0.25, casimir1_squared = 0.125) [body(3), casimir2(), casimir1()] none;
-    conformal_missile_3: 3 Conformal conformal moving projected
+    conformal_missile_3: 3 Conformal conformal moving
         (body_inertia = 1.5, casimir2 = 0.25, body_translation = 1.25) [body(3), casimir2(), body_translation()] none;
-    conformal_right_missile_3: 3 Conformal conformal moving projected
+    conformal_right_missile_3: 3 Conformal conformal moving
         (space_inertia = 1.5, casimir1_squared = 0.125, body_translation = 1.25)
         [space(3), casimir1(), body_translation()] none;
-    conformal_right_drift_2: 2 Conformal conformal moving projected
+    conformal_right_drift_2: 2 Conformal conformal moving
         (space_inertia = 1.5, casimir2 = 0.25, space_translation = 1.25)
         [space(2), casimir2(), space_translation()] => (1/2*sinh(q)^2) |place| place.q().sinh().power(2) * 0.5;
-    conformal_inertia_3: 3 Conformal conformal pinned projected
+    conformal_inertia_3: 3 Conformal conformal pinned
         (body_inertia = diag(1, 1.5, 2), casimir1_squared = 0.125)
         [Term::BodyInertia(diagonal(&[2, 3, 4])), casimir1()] => (phi[3,3]*exp(-q) + tr(G))
         |place| place.phi(3, 3) * (place.q() * -1.0).exp() + place.trace_green();
-    conformal_matrix_2: 2 Conformal conformal moving projected
+    conformal_matrix_2: 2 Conformal conformal moving
         (space_inertia = [[1, 0.5], [0.5, 2]], body_translation = 1.25)
         [Term::SpaceInertia(quarters(2, &[4, 2, 2, 8])), body_translation()]
         => (x[1]^3) |place| place.x(1).power(3);
-    conformal_tensor_2: 2 Conformal conformal pinned projected
+    conformal_tensor_2: 2 Conformal conformal pinned
         (space_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])
         [Term::SpaceTensor(quarters(4, &[8, 2, 0, 4, 2, 12, 1, 0, 0, 1, -4, 2, 4, 0, 2, 16]))] none;
-    isochoric_dalembert_2: 2 Isochoric isochoric pinned multiplier (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
-    isochoric_dalembert_3: 3 Isochoric isochoric moving multiplier
+    isochoric_dalembert_2: 2 Isochoric isochoric pinned (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
+    isochoric_dalembert_3: 3 Isochoric isochoric moving
         (dalembert = 1.5, space_translation = 1.25) [Term::dalembert(3, rational(3, 2)), space_translation()]
         => (tr(G)*exp(-2*q)) |place| place.trace_green();
-    isochoric_dalembert_diagonal_3: 3 Isochoric isochoric pinned multiplier
+    isochoric_dalembert_diagonal_3: 3 Isochoric isochoric pinned
         (dalembert = diag(1, 1.5, 2)) [Term::DAlembert(diagonal(&[2, 3, 4]))]
         => (tr(G)/2) |place| place.trace_green() * 0.5;
-    conformal_dalembert_2: 2 Conformal conformal pinned projected (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
-    conformal_dalembert_3: 3 Conformal conformal pinned projected (dalembert = 1.5) [Term::dalembert(3, rational(3, 2))]
+    conformal_dalembert_2: 2 Conformal conformal pinned (dalembert = 1.5) [Term::dalembert(2, rational(3, 2))] none;
+    conformal_dalembert_3: 3 Conformal conformal pinned (dalembert = 1.5) [Term::dalembert(3, rational(3, 2))]
         => (sinh(q)^2) |place| place.q().sinh().power(2);
-    conformal_dalembert_diagonal_3: 3 Conformal conformal moving projected
+    conformal_dalembert_diagonal_3: 3 Conformal conformal moving
         (dalembert = diag(1, 1.5, 2), space_translation = 1.25)
         [Term::DAlembert(diagonal(&[2, 3, 4])), space_translation()] => (sinh(q)^2 + phi[3,3])
         |place| place.q().sinh().power(2) + place.phi(3, 3);
-    conformal_dalembert_matrix_2: 2 Conformal conformal moving projected
+    conformal_dalembert_matrix_2: 2 Conformal conformal moving
         (dalembert = [[1, 0.5], [0.5, 2]], body_translation = 1.25)
         [Term::DAlembert(quarters(2, &[4, 2, 2, 8])), body_translation()]
         => (x[1]^3) |place| place.x(1).power(3);
-    conformal_dalembert_drift_3: 3 Conformal conformal moving projected
+    conformal_dalembert_drift_3: 3 Conformal conformal moving
         (dalembert = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]], space_translation = 1.25)
         [Term::DAlembert(quarters(3, &[4, 2, 0, 2, 8, 1, 0, 1, 12])), space_translation()] none;
 }

@@ -73,7 +73,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
     for point in model.points() {
         let state = exact_state(spin, &point);
         let reference = M::reference(T0, &state);
-        let rates = model.free_equations(T0, &model.flatten(&point));
+        let rates = model.hamilton_equations(T0, &model.flatten(&point));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             assert_components(&reference, N, name, rate, UNDER_POTENTIAL);
         }
@@ -110,8 +110,7 @@ fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
             largest <= BRACKET_ZERO || largest > BRACKET_VISIBLE,
             "{observable:?} undecided: {largest:e}"
         );
-        let named =
-            exists(observable, N, M::TRANSLATION) && !has_another_name(M::CONSTRAINT, false, observable);
+        let named = exists(observable, N, M::TRANSLATION) && !has_another_name(M::CONSTRAINT, observable);
         let still = named && largest <= BRACKET_ZERO;
         assert!(!listed.contains(&observable) || still, "{observable:?} listed");
         assert!(!decided || listed.contains(&observable) || !still, "{observable:?} not listed");

@@ -78,8 +78,12 @@ metrics! {
     rigid_dalembert_3 3 rigid (dalembert = diag(1, 1.25, 0.75)) same, same;
     isochoric_body_3 3 isochoric (body_inertia = diag(1, 1.25, 0.75), casimir2 = 0.125) sheared, shearing;
     isochoric_dalembert_2 2 isochoric (dalembert = diag(1, 2)) sheared, shearing;
+    isochoric_dalembert_3 3 isochoric (dalembert = diag(1, 1.25, 0.75)) sheared, shearing;
+    isochoric_sum_2 2 isochoric (dalembert = diag(1, 2), body_inertia = diag(1, 3)) sheared, shearing;
+    rigid_sum_3 3 rigid (body_inertia = diag(1, 1.25, 0.75), space_inertia = diag(2, 1, 0.5)) same, same;
     conformal_body_3 3 conformal (body_inertia = diag(1, 1.25, 0.75), casimir1_squared = 0.5) stretched, growing;
     conformal_dalembert_2 2 conformal (dalembert = [[1, 0.25], [0.25, 2]]) stretched, growing;
+    conformal_sum_2 2 conformal (dalembert = diag(1, 2), body_inertia = diag(2, 1)) stretched, growing;
     conformal_dalembert_3 3 conformal (dalembert = diag(1, 1.25, 0.75)) stretched, growing;
 }
 
@@ -113,6 +117,49 @@ fn of_a_moving_conformal_body() {
         let twice: f64 = (0..6).map(|i| v[i] * (0..6).map(|j| metric[(i, j)] * v[j]).sum::<f64>()).sum();
         let energy = model.kinetic_energy(&phi, &velocity);
         assert!((twice - 2.0 * energy).abs() <= ALGEBRA * energy, "{twice} {energy}");
+    }
+}
+
+/// A centre of mass whose weight the body carries in part: the metric of both masses, and the acceleration against differences
+/// of the velocity along the motion.
+#[test]
+fn of_a_moving_isochoric_body() {
+    #[affine_model(
+        dim = 2,
+        constraint = isochoric,
+        kinetic(dalembert = diag(1, 2), body_translation = 1.5, space_translation = 0.5),
+        potential = norm(x)^2/2 + tr(G),
+        emit(metric, acceleration)
+    )]
+    struct Body;
+    /// Its square, over all terms, is below the tolerance.
+    const STEP: f64 = 1e-5;
+    for seed in 0..4 {
+        let phi = sheared(rotation(&skew::<2>(seed)));
+        let (x, x_dot) = (Vector::<2>::new(0.3, seed as f64), Vector::<2>::new(-0.2, 0.5));
+        let start = Body.at_velocity(x, phi, x_dot, phi * shearing(skew(seed + 5))).unwrap();
+        let velocity = Body.velocity(&start);
+        let rows = velocity.phi_dot.transpose();
+        let v = joined(&x_dot, rows.as_slice());
+        let metric = Body.metric(&phi);
+        let twice: f64 = (0..6).map(|i| v[i] * (0..6).map(|j| metric[(i, j)] * v[j]).sum::<f64>()).sum();
+        let energy = Body.kinetic_energy(&phi, &velocity);
+        assert!((twice - 2.0 * energy).abs() <= ALGEBRA * energy, "{twice} {energy}");
+        let momenta = joined(&start.p(), start.pi().0.0.as_slice());
+        let inverse = Body.inverse_metric(&phi);
+        for (i, entry) in v.iter().enumerate() {
+            let found: f64 = (0..6).map(|j| inverse[(i, j)] * momenta[j]).sum();
+            assert!((found - entry).abs() <= ALGEBRA * (1.0 + entry.abs()), "velocity {i}: {found} {entry}");
+        }
+        let full = Body.flatten(&start);
+        let rates = Body.hamilton_equations(0.0, &full);
+        let x_dot_at = |time: f64| {
+            let moved: Vec<f64> = full.iter().zip(&rates).map(|(value, rate)| value + time * rate).collect();
+            Body.velocity(&Body.unflatten(&moved.try_into().unwrap())).x_dot
+        };
+        let expected = (x_dot_at(STEP) - x_dot_at(-STEP)) / (2.0 * STEP);
+        let found = Body.acceleration(&start);
+        assert!((found - expected).norm() <= 1e-8 * expected.norm(), "{found} {expected}");
     }
 }
 

@@ -1,9 +1,11 @@
-//! One energy under `det phi = 1`, stated as masses and as a tensor: a multiplier keeps the one motion on the group, the
-//! other is derived on its algebra. It is the same motion.
+//! One energy under `det phi = 1`, stated as masses and as a tensor, is one motion, with friction and forces; RATTLE takes the
+//! masses without the constraint and finds its multiplier, and follows the same motion.
 
 use affine_oracle::Constraint;
-use affine_runtime::model::Conserved;
+use affine_runtime::force::{Force, Motion, Spatial as OnSpace};
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
+use affine_runtime::simulate::Method;
 
 use affine_tests::group::starts;
 use affine_tests::tolerances::TWO_METHODS;
@@ -39,8 +41,8 @@ macro_rules! one_energy {
                 assert!(apart(one.1, other.1) <= TWO_METHODS, "phi_dot: {:e}", apart(one.1, other.1));
                 assert!((one.2 - other.2).abs() <= TWO_METHODS * one.2.abs(), "H: {:e} {:e}", one.2, other.2);
             }
-            let spin = |list: &[Conserved]| list.contains(&Conserved::Spin);
-            assert_eq!(spin(Masses::DESCRIPTION.conserved), spin(Tensor::DESCRIPTION.conserved));
+            assert_eq!(Masses::DESCRIPTION.conserved, Tensor::DESCRIPTION.conserved);
+            assert_eq!(Masses::DESCRIPTION.full_operations, Tensor::DESCRIPTION.full_operations);
         }
     )+ };
 }
@@ -60,4 +62,53 @@ one_energy! {
         [0, 0, 0, 0, 0, 0, 0, 1.5, 0],
         [0, 0, 0, 0, 0, 0, 0, 0, 2],
     ]) [, potential = tr(G)/2 + G[1,2]^2];
+    damped_in_the_plane: 2 (1.5) ([[1.5, 0, 0, 0], [0, 1.5, 0, 0], [0, 0, 1.5, 0], [0, 0, 0, 1.5]])
+        [, potential = tr(G)/2 + G[1,2]^2, dissipation(dalembert = 0.5, casimir2 = 0.1, body_inertia = 0.2)];
+    driven_in_the_plane: 2 (1.5) ([[1.5, 0, 0, 0], [0, 1.5, 0, 0], [0, 0, 1.5, 0], [0, 0, 0, 1.5]])
+        [, potential = tr(G)*(2 + cos(t))];
+}
+
+/// A force on a body at a place, that turns with the time.
+#[derive(Clone, Copy)]
+struct Pull;
+
+impl Force<2> for Pull {
+    type Form = OnSpace;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
+        motion.phi * motion.phi.transpose() * motion.t.cos()
+    }
+}
+
+#[affine_model(
+    dim = 2,
+    constraint = isochoric,
+    kinetic(dalembert = diag(1, 1.5), space_translation = 2),
+    potential = tr(G)/2 + norm(x)^2/2 + x[1]*phi[1,2],
+    forces = custom(pull, spatial, position)
+)]
+struct Pulled {
+    pull: Pull,
+}
+
+/// RATTLE under a force that depends on the placement alone, with a centre of mass that the body pulls: the motion on the group.
+#[test]
+fn by_its_multiplier() {
+    let model = Pulled { pull: Pull };
+    for start in starts::<2>(Constraint::Isochoric) {
+        let phi_dot = start.phi * start.spin;
+        let point = model.at_velocity(start.x, start.phi, start.p, phi_dot).unwrap();
+        let run = |method: Method| {
+            Simulation::new(&model, point).until(T_END).tolerance(1e-13).method(method).run().unwrap()
+        };
+        let (by_rattle, exact) = (run(Method::Rattle { order: 8, step: 0.01 }), run(Method::RungeKutta8));
+        let [(_, found), (_, expected)] = [by_rattle.end(), exact.end()];
+        let close = |what: &str, difference: f64, size: f64| {
+            assert!(difference <= TWO_METHODS * size, "{what}: {difference:e} of {size:e}");
+        };
+        close("phi", (found.phi() - expected.phi()).norm(), expected.phi().norm());
+        let spins = [found, expected].map(|point| point.sigma_hat().0.0);
+        close("Sigma_hat", (spins[0] - spins[1]).norm(), spins[1].norm());
+        close("x", (found.x() - expected.x()).norm(), 1.0 + expected.x().norm());
+        close("p", (found.p() - expected.p()).norm(), 1.0 + expected.p().norm());
+    }
 }

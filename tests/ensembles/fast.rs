@@ -1,7 +1,8 @@
 //! Fast lanes err by less than is said.
 
+use affine_integrators::lanes::FAST_ULP;
 use affine_oracle::Random;
-use affine_runtime::lanes::{FAST_ULP, FastF64x8, Lanes};
+use affine_runtime::lanes::{FastF64x8, Lanes};
 use affine_runtime::scalar::{Real, Scalar};
 use qd::Quad;
 

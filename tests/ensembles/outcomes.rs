@@ -124,3 +124,16 @@ fn results_are_one<T: Lanes>() {
         assert_eq!(in_pool(threads), expected, "{threads} threads");
     }
 }
+
+/// What is asked of bodies in one thread runs in another.
+#[test]
+fn an_ensemble_goes_to_another_thread() {
+    let starts = Elastic.samples(11, 29);
+    let ensemble = || {
+        let events = || vec![Event::determinant(1.0)];
+        Ensemble::new(&Elastic, starts.iter().copied()).until(0.5).events(events).progress(|_| ())
+    };
+    let here = ensemble();
+    let there = std::thread::scope(|scope| scope.spawn(move || here.run().unwrap()).join().unwrap());
+    assert_eq!(there, ensemble().run().unwrap());
+}

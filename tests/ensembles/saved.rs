@@ -2,13 +2,17 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use affine_runtime::Error;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Setting;
+use affine_runtime::simulate::{Format, Setting, Table};
+use bytes::Bytes;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 
 use crate::models::{Sampled, Unprotected};
 
@@ -29,19 +33,20 @@ fn ensemble<'a>() -> Ensemble<'a, 2, &'a Unprotected> {
 }
 
 fn save<'a>(ensemble: Ensemble<'a, 2, &'a Unprotected>, folder: &Path) -> affine_runtime::Result<()> {
-    ensemble.save(folder, CHUNK, &["half"], |number| vec![0.5 * number as f64])
+    ensemble.save(folder, (Format::Csv, CHUNK), &["half"], |number| vec![0.5 * number as f64])
 }
 
-struct Folder(PathBuf);
+/// A folder that goes when a test is done.
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("affine-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&path);
         Self(path)
     }
 
-    fn files(&self) -> BTreeMap<String, Vec<u8>> {
+    pub(crate) fn files(&self) -> BTreeMap<String, Vec<u8>> {
         let files = fs::read_dir(&self.0).unwrap().map(|file| file.unwrap().path());
         files
             .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(&path).unwrap()))
@@ -144,4 +149,46 @@ fn a_folder_of_another_run_is_refused() {
     fs::write(&file.0, "no folder").unwrap();
     assert!(matches!(save(ensemble(), &file.0), Err(Error::File { .. })));
     fs::remove_file(&file.0).unwrap();
+}
+
+/// The same rows in every format, with what is known of all of them.
+#[test]
+fn chunks_are_written_in_any_format() {
+    let rows = |format: Format| {
+        let folder = Folder::new(&format!("{format:?}"));
+        ensemble().save(&folder.0, (format, CHUNK), &["half"], |number| vec![0.5 * number as f64]).unwrap();
+        let files = folder.files();
+        assert!(files.keys().filter(|name| name.starts_with("chunk")).count() == BODIES.div_ceil(CHUNK));
+        files.into_iter().filter(|(name, _)| name.starts_with("chunk"))
+    };
+    let text = rows(Format::Csv).flat_map(|(_, text)| {
+        let text = String::from_utf8(text).unwrap();
+        text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    });
+    let numbers: Vec<f64> =
+        text.flat_map(|row| row.split(',').map(|n| n.parse().unwrap()).collect::<Vec<_>>()).collect();
+    let mut from_parquet = Vec::new();
+    for (_, bytes) in rows(Format::Parquet) {
+        let file = SerializedFileReader::new(Bytes::from(bytes)).unwrap();
+        let about = file.metadata().file_metadata().key_value_metadata().unwrap();
+        let keys: Vec<&str> = about.iter().map(|word| word.key.as_str()).collect();
+        assert_eq!(keys, ["model", "kinetic_energy", "hamiltonian", "method", "tolerance"]);
+        for row in file.get_row_iter(None).unwrap() {
+            from_parquet.extend(row.unwrap().get_column_iter().map(|(_, value)| match value {
+                Field::Double(value) => *value,
+                other => panic!("{other}"),
+            }));
+        }
+    }
+    assert_eq!(from_parquet, numbers);
+    let archives: usize = rows(Format::Npz)
+        .map(|(_, bytes)| {
+            let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+            let mut file = archive.by_name("half.npy").unwrap();
+            let mut array = Vec::new();
+            file.read_to_end(&mut array).unwrap();
+            npyz::NpyFile::new(array.as_slice()).unwrap().into_vec::<f64>().unwrap().len()
+        })
+        .sum();
+    assert_eq!(archives * Table::of_bodies::<2, Unprotected>(&["half"]).names().len(), numbers.len());
 }

@@ -1,5 +1,7 @@
 //! Bodies that have a model each.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use affine_runtime::lanes::F64x16;
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
@@ -60,16 +62,16 @@ fn fields_that_are_no_coefficients_are_those_of_each_body() {
 fn starts_are_taken_as_they_are_needed() {
     let model = vibrating();
     let start = model.samples(1, 5)[0];
-    let (taken, done) = (std::cell::Cell::new(0_u64), std::cell::Cell::new(0_u64));
+    let (taken, done) = (AtomicU64::new(0), std::cell::Cell::new(0_u64));
     let mut most = 0;
     let starts = (0..60_000).map(|_| {
-        taken.set(taken.get() + 1);
+        taken.fetch_add(1, Ordering::Relaxed);
         start
     });
     let each = |body: affine_runtime::simulate::Member<_, ()>| {
         assert_eq!(body.number, done.get());
         done.set(done.get() + 1);
-        most = most.max(taken.get() - done.get());
+        most = most.max(taken.load(Ordering::Relaxed) - done.get());
     };
     // An empty interval: what is looked at is the way of the starts.
     Ensemble::new(&model, starts).until(0.0).fold(|_, _| (), |(), _, _| (), each).unwrap();

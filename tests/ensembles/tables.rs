@@ -1,12 +1,16 @@
 //! What leaves the program: columns, archives of NumPy, JSON.
 
 use std::io::{Cursor, Read};
+use std::path::Path;
 
 use affine_runtime::model::Conserved;
 use affine_runtime::nalgebra;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Table;
+use affine_runtime::simulate::{Format, Table};
+use bytes::Bytes;
 use npyz::NpyFile;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -81,6 +85,73 @@ fn archives_read_back_as_the_same_numbers() {
     run.csv(&mut text).unwrap();
     let first = String::from_utf8(text).unwrap().lines().next().unwrap().to_owned();
     assert_eq!(first, table.names().join(","));
+}
+
+/// To the bit, with what is known of the run.
+#[test]
+fn parquet_reads_back_as_the_same_numbers() {
+    let run = Simulation::new(&Elastic, Elastic.samples(1, 72)[0]).until(1.0).every(0.1).run().unwrap();
+    let mut table = run.table();
+    table.note("seed", 71);
+    table.note("seed", 72);
+    let eta = Matrix::<2>::new(1.3, 0.2, 0.2, 0.9);
+    table.note_fields(&Blown { eta, j: 1.0, s: 0.5, wind: Wind(0.3) });
+    let bytes = || {
+        let mut bytes = Vec::new();
+        table.parquet(&mut bytes).unwrap();
+        bytes
+    };
+    assert_eq!(bytes(), bytes());
+    let file = SerializedFileReader::new(Bytes::from(bytes())).unwrap();
+    let about = file.metadata().file_metadata().key_value_metadata().unwrap();
+    let about: Vec<_> = about.iter().map(|word| (word.key.clone(), word.value.clone().unwrap())).collect();
+    assert_eq!(about, table.about());
+    let said = |key: &str| about.iter().find(|(own, _)| own == key).map(|(_, text)| text.as_str());
+    assert_eq!((said("model"), said("seed")), (Some("Elastic"), Some("72")));
+    assert_eq!(said("hamiltonian"), Some(Elastic::DESCRIPTION.hamiltonian.text));
+    assert_eq!(
+        ["field_j", "field_s", "field_eta11", "field_eta21"].map(said),
+        ["1", "0.5", "1.3", "0.2"].map(Some)
+    );
+    assert_eq!(said("tolerance"), Some(format!("{}", run.computation().tolerance).as_str()));
+    assert_eq!(said("method"), Some(format!("{:?}", run.computation().method).as_str()));
+    let mut read = vec![Vec::new(); table.names().len()];
+    for row in file.get_row_iter(None).unwrap() {
+        for (k, (name, value)) in row.unwrap().get_column_iter().enumerate() {
+            assert_eq!(name, &table.names()[k]);
+            let Field::Double(value) = value else { panic!("{name} is {value}") };
+            read[k].push(value.to_bits());
+        }
+    }
+    for ((name, column), read) in table.columns().zip(read) {
+        assert_eq!(column.iter().map(|value| value.to_bits()).collect::<Vec<_>>(), read, "{name}");
+    }
+}
+
+/// Names alone.
+#[test]
+fn a_table_without_rows_is_written_as_well() {
+    let mut bytes = Vec::new();
+    let table = Table::of_bodies::<2, Unprotected>(&["a"]);
+    table.parquet(&mut bytes).unwrap();
+    let file = SerializedFileReader::new(Bytes::from(bytes)).unwrap();
+    let schema = file.metadata().file_metadata().schema_descr();
+    let names: Vec<_> = schema.columns().iter().map(|column| column.name()).collect();
+    assert_eq!(
+        (names, file.metadata().file_metadata().num_rows()),
+        (table.names().iter().map(String::as_str).collect(), 0)
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named() {
+    let path = Path::new("no such folder/table.parquet");
+    let table = Table::of_bodies::<2, Unprotected>(&[]);
+    for format in [Format::Csv, Format::Npz, Format::Parquet] {
+        let error = table.save(path, format).unwrap_err();
+        let affine_runtime::Error::File { path: named, kind } = error else { panic!("{error}") };
+        assert_eq!((named.as_path(), kind), (path, std::io::ErrorKind::NotFound));
+    }
 }
 
 fn comes_back<V: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: &V) {

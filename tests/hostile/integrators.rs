@@ -1,8 +1,8 @@
 //! Integrators called by hand, variations, and reports: what a simulation keeps from them.
 
+use affine_integrators::gauss::Tableau;
+use affine_integrators::{Failure, Gauss, RungeKutta5, RungeKutta8};
 use affine_runtime::Error;
-use affine_runtime::integrate::gauss::Tableau;
-use affine_runtime::integrate::{Failure, Gauss, RungeKutta5, RungeKutta8};
 use affine_runtime::model::{Group, Quantity};
 use affine_runtime::prelude::*;
 use affine_runtime::report::WorkPrecision;

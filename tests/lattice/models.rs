@@ -96,3 +96,26 @@ pub(crate) struct Pairs3;
 /// The same for d'Alembert's model.
 #[affine_model(dim = 2, kinetic(dalembert = 1.5), potential = q1^2 + q2^2 + 0.1*pairs(d^2), emit(two_polar))]
 pub(crate) struct Pairs2;
+
+/// Bodies whose volume is constant.
+macro_rules! isochoric {
+    ($($name:ident = $dim:literal ($($kinetic:tt)*) $(($potential:expr))?;)*) => { $(
+        #[affine_model(
+            dim = $dim,
+            constraint = isochoric,
+            kinetic($($kinetic)*),
+            $(potential = $potential,)?
+            emit(two_polar)
+        )]
+        pub(crate) struct $name;
+    )* };
+}
+
+isochoric! {
+    IsochoricGeodesic2 = 2 (casimir2 = 0.2, body_inertia = 1);
+    IsochoricSheared2 = 2 (casimir2 = 0.2, body_inertia = 1) (0.3*tr(G) + 0.01*tr(G*G));
+    IsochoricAffine2 = 2 (casimir2 = 1.2) (0.3*tr(G));
+    IsochoricGeodesic3 = 3 (casimir2 = 0.2, space_inertia = 1);
+    IsochoricSheared3 = 3 (casimir2 = 0.2, body_inertia = 1) (0.3*tr(G) + 0.01*tr(G*G));
+    IsochoricPairs3 = 3 (casimir2 = 0.2, space_inertia = 1) (pairs(cosh(d)) + q1^2 + q2^2 + q3^2);
+}

@@ -1,9 +1,9 @@
 //! The lattice in ratios of stretches (P4 without exponentials): against the equations of `(q, p, M, N)`, and against
 //! its closed form.
 
+use affine_integrators::RungeKutta8;
 use affine_runtime::decompose::exponential;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::RungeKutta8;
 use affine_runtime::lattice::{Lattice, LatticeFlow, LatticeForm, RatioForm, TwoPolarForm};
 use affine_runtime::model::{Group, Quantity};
 use affine_runtime::prelude::*;

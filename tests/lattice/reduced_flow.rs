@@ -1,7 +1,7 @@
 //! The lattice against the motion of the placement, and against itself in models that share it.
 
+use affine_integrators::RungeKutta8;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::RungeKutta8;
 use affine_runtime::lattice::{Lattice, LatticeFlow, TwoPolarForm};
 use affine_runtime::prelude::*;
 
@@ -67,6 +67,27 @@ fn growing<const N: usize>() -> Lattice<N> {
     Lattice { p: Vector::<N>::from_fn(|a, _| [1.9, 1.1, 0.4][a]), ..start() }
 }
 
+/// Of unit volume, which does not change.
+fn balanced<const N: usize>() -> Lattice<N> {
+    let Lattice { q, p, .. } = start::<N>();
+    Lattice { q: q.add_scalar(-q.mean()), p: p.add_scalar(-p.mean()), ..start() }
+}
+
+/// Along a motion the volume stays, and so does the energy.
+#[test]
+fn isochoric_lattices_keep_their_volume() {
+    let first = balanced();
+    let mut flow = LatticeFlow::new(&IsochoricPairs3, 0.0, first).tolerance(1e-14);
+    let last = *flow.advance_to(50.0).unwrap();
+    assert!(last.q.sum().abs() < 1e-12 && last.p.sum().abs() < 1e-12, "{last:?}");
+    let energy = |lattice: &Lattice<3>| {
+        IsochoricPairs3.hamiltonian(0.0, &IsochoricPairs3.at_lattice(lattice).unwrap())
+    };
+    assert!((energy(&last) - energy(&first)).abs() < 1e-11 * energy(&first));
+    // Of another volume it is no body of this model.
+    assert!(IsochoricPairs3.at_lattice(&start()).is_err());
+}
+
 fn assert_same_motion<const N: usize, M: TwoPolarForm<N>>(model: &M, start: Lattice<N>) {
     let back = model.lattice_after(&model.at_lattice(&start).unwrap(), &start).unwrap();
     let conversion = distance(&back, &start);
@@ -97,6 +118,8 @@ same_motion! {
     materially_affine from start: MateriallyAffine2 MateriallyAffineDilated2 MateriallyAffineSheared2
         MateriallyAffine3 MateriallyAffineDilated3 MateriallyAffineSheared3;
     single_stretches from start: Pairs2 Pairs3;
+    isochoric from balanced: IsochoricGeodesic2 IsochoricSheared2 IsochoricAffine2
+        IsochoricGeodesic3 IsochoricSheared3 IsochoricPairs3;
     dalembert_geodesic from growing: Dalembert2 Dalembert3;
     dalembert from start: DalembertDilated2 DalembertSheared2 DalembertSheared3;
     dalembert_dilated from growing: DalembertDilated3;

@@ -1,8 +1,8 @@
 //! The lattice by exact flows of its pieces: orders, what is kept to rounding over many steps, and where a fixed step
 //! ends.
 
+use affine_integrators::Failure;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::Failure;
 use affine_runtime::lattice::{
     CircleFlow, Lattice, LatticeFlow, LatticePieces, LatticeSplitting, StopReason, TwoPolarForm,
 };

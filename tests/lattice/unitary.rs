@@ -92,6 +92,70 @@ fn spatial_motion_is_an_exponential() {
     assert_exponential!(3, 6, Unitary3 { a: A }.prepare().unwrap());
 }
 
+/// Potentials of the angles.
+#[affine_model(dim = 2, kinetic(casimir2 = 0.9, casimir1_squared = 0.3), group = unitary, potential = pairs(-cos(d)))]
+struct Pendulum;
+#[affine_model(
+    dim = 3,
+    kinetic(casimir2 = 0.9, casimir1_squared = 0.3),
+    group = unitary,
+    potential = cos(q1) + cos(q2) + cos(q3) + pairs(cos(2*d)) + sin(3*q)
+)]
+struct Held3;
+
+/// `x = q_1 - q_2` without couplings is a pendulum, `x'' = -(2/A) sin x`: from rest it is at the other side after half of
+/// `2 pi sqrt(A/2)/agm(1, cos(x_0/2))`.
+#[test]
+fn two_angles_are_a_pendulum() {
+    let turn = 1.3_f64;
+    let (mut a, mut b) = (1.0, (turn / 2.0).cos());
+    for _ in 0..6 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let half = std::f64::consts::PI * (A / 2.0).sqrt() / a;
+    let mut first = start::<2>();
+    first.q = Vector::<2>::new(0.3 + turn / 2.0, 0.3 - turn / 2.0);
+    first.p.fill(0.0);
+    first.m.fill(0.0);
+    first.n.fill(0.0);
+    let mut flow = CircleFlow::new(&Pendulum, 0.0, first).tolerance(1e-14);
+    let other = *flow.advance_to(half).unwrap();
+    assert!((other.q - Vector::<2>::new(first.q[1], first.q[0])).norm() < 1e-11, "{other:?}");
+    assert!(other.p.norm() < 1e-11);
+}
+
+/// Rates are the derivatives of the energy, by differences of order 4, and the energy is constant.
+#[test]
+fn potentials_of_angles_push() {
+    let state: [f64; 12] = std::array::from_fn(|k| 0.3 + (1.7 * k as f64 + 0.4).sin());
+    let rates = Held3.lattice_equations(&[], &state);
+    let energy = |k: usize, by: f64| {
+        let mut moved = state;
+        moved[k] += by;
+        Held3.lattice_hamiltonian(&[], &moved)
+    };
+    for k in 0..6 {
+        const H: f64 = 1e-3;
+        let near = energy(k, H) - energy(k, -H);
+        let slope = (8.0 * near - energy(k, 2.0 * H) + energy(k, -2.0 * H)) / (12.0 * H);
+        let rate = if k < 3 { -rates[k + 3] } else { rates[k - 3] };
+        assert!((rate - slope).abs() < 1e-8 * (1.0 + slope.abs()), "{k}: {rate} {slope}");
+    }
+    let first = start::<3>();
+    let mut flow = CircleFlow::new(&Held3, 0.0, first).tolerance(1e-14);
+    let last = *flow.advance_to(0.5).unwrap();
+    let of = |lattice: &Lattice<3>| {
+        let pairs = [(0, 1), (0, 2), (1, 2)];
+        let mut state = [0.0; 12];
+        for k in 0..3 {
+            (state[k], state[3 + k]) = (lattice.q[k], lattice.p[k]);
+            (state[6 + k], state[9 + k]) = (lattice.m[pairs[k]], lattice.n[pairs[k]]);
+        }
+        Held3.lattice_hamiltonian(&[], &state)
+    };
+    assert!((of(&last) - of(&first)).abs() < 1e-11 * of(&first).abs(), "{} {}", of(&last), of(&first));
+}
+
 #[test]
 fn degenerate_values_are_refused() {
     assert!(Unitary3 { a: 0.0 }.prepare().is_err());

@@ -149,6 +149,57 @@ fn tensors() {
     agrees(&Flat, &flat, at, back);
 }
 
+/// Terms of different frames, whose mass matrix depends on `phi`: each is read by the metrics of its own indices.
+#[test]
+fn sums() {
+    #[affine_model(
+        dim = 2,
+        metrics(space = [[2, 0.5], [0.5, 1.5]], body = [[1, -0.4], [-0.4, 3]]),
+        kinetic(dalembert = [[1.5, 0.25], [0.25, 2]], body_inertia = [[1.5, 0.25], [0.25, 2]], space_inertia = 0.5,
+                casimir2 = 0.2, space_translation = 2)
+    )]
+    struct Plane;
+    let [g, g_inverse, eta, _] = plane();
+    let kinetic = Kinetic::new(
+        2,
+        vec![
+            Term::FlatTensor(product(2, &g, &inertia(2))),
+            Term::BodyTensor(product(2, &eta, &inertia(2))),
+            Term::SpaceTensor(product(2, &g, &g_inverse).scaled(&rational(1, 2))),
+            Term::Casimir2(rational(1, 5)),
+            Term::SpaceTranslationMetric(g.scaled(&rational(2, 1))),
+        ],
+    )
+    .unwrap();
+    let (at, back) = moving!(Plane, 2);
+    agrees(&Plane, &kinetic, at, back);
+
+    // The same from fields.
+    #[affine_model(
+        dim = 3,
+        metrics(space = [[g, 0.5, 0], [0.5, 1.5, -0.25], [0, -0.25, 1]],
+                body = [[1, -0.4, 0.2], [-0.4, 3, 0], [0.2, 0, 1.25]]),
+        kinetic(dalembert = i, body_inertia = diag(1, 1.5, 2), body_translation = 2)
+    )]
+    struct Space {
+        g: f64,
+        i: f64,
+    }
+    let model = Space { g: 2.0, i: 3.0 }.prepare().unwrap();
+    let [g, _, eta, eta_inverse] = space();
+    let kinetic = Kinetic::new(
+        3,
+        vec![
+            Term::FlatTensor(product(3, &g, &eta_inverse).scaled(&rational(3, 1))),
+            Term::BodyTensor(product(3, &eta, &diagonal())),
+            Term::BodyTranslationMetric(eta.scaled(&rational(2, 1))),
+        ],
+    )
+    .unwrap();
+    let (at, back) = moving!(model, 3);
+    agrees(&model, &kinetic, at, back);
+}
+
 /// `J^AB = I eta^AB` is `body_inertia = I`: isotropic, found exactly, whatever the roots, and integrated as such.
 #[test]
 fn the_metric_as_an_inertia() {

@@ -1,6 +1,6 @@
 //! A potential that contains the time: a pulsating body whose motion is known, driven through coincident stretches.
 
-use affine_runtime::integrate::runge_kutta::Step;
+use affine_integrators::runge_kutta::Step;
 use affine_runtime::prelude::*;
 
 use affine_tests::tolerances::{DRIVEN, ORDER};

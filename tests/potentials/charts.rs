@@ -135,6 +135,17 @@ in_charts! {
         let q = 0.5 * det.ln();
         ((first - 2.0).powi(2) + q * q + 0.1).powi(3) + (2.0 + (det - 1.0).powi(2)).ln()
     };
+    products_of_tensors: 3, [0.02*tr(G^3*Ct^2) + 0.1*(tr(G*Ct*phi) - 2)^2 + 0.05*tr(phi^4)], |phi: &Matrix<3>| {
+        let (green, finger) = (phi.transpose() * phi, phi * phi.transpose());
+        0.02 * (green.pow(3) * finger * finger).trace() + 0.1 * ((green * finger * phi).trace() - 2.0).powi(2)
+            + 0.05 * phi.pow(4).trace()
+    };
+    powers_of_tensors: 2, [0.1*(tr(G^5) - 2)^2 + 0.1*tr((G - 1)^4)*exp(-q) + tr((G*Ct)^3)], |phi: &Matrix<2>| {
+        let (green, finger) = (phi.transpose() * phi, phi * phi.transpose());
+        let strain = green - Matrix::<2>::identity();
+        0.1 * (green.pow(5).trace() - 2.0).powi(2) + 0.1 * strain.pow(4).trace() / phi.determinant().sqrt()
+            + (green * finger).pow(3).trace()
+    };
     sums_of_entries: 3, [(G[1,1] - 1)^4*(Ct[1,2] + phi[3,1])^2 + (tr(G) - 3)^2/(1 + (q + 0.1)^2)], |phi: &Matrix<3>| {
         let (green, finger) = (phi.transpose() * phi, phi * phi.transpose());
         let q = phi.determinant().ln() / 3.0;

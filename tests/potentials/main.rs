@@ -5,11 +5,12 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod charts;
+mod counts;
 mod energies;
 mod table;
 mod tidal;
 
-use table::{Energy, Row};
+use table::{Energy, Row, counted};
 
 /// `|error| <= BOUND eps (|S| + |F|)`: a natural matrix formula needs 0.7 at most.
 const BOUND: f64 = 4.0;
@@ -49,13 +50,14 @@ fn forces_within_the_rounding_of_the_strain() {
 /// `|phi|`: `cargo test --test potentials figures -- --nocapture`.
 #[test]
 fn figures() {
-    for Energy { name, operations, reduced, rows } in energies::all() {
+    for Energy { name, operations, rows } in energies::all() {
         let worst = |part: fn(&Row) -> f64, strained: bool| {
             let rows = rows.iter().filter(|row| !strained || row.at != "large");
             rows.map(|row| row.error / (f64::EPSILON * (part(row) + row.size))).fold(0.0, f64::max)
         };
         let (first, second) = (worst(|row| row.sensitivity, false), worst(|row| row.near, true));
-        println!("{name:14} {operations:>24} {reduced:>24} {first:9.1e} {second:9.1e}");
+        let [at_point, along] = operations.each_ref().map(counted);
+        println!("{name:14} {at_point:>24} {along:>24} {first:9.1e} {second:9.1e}");
         assert!(first.is_finite());
     }
 }
@@ -75,6 +77,9 @@ fn expansions_multiply_little_out() {
     };
     let more =
         ["(tr(G)-3)^12", "(I2-3)^4", "(tr(G)*exp(-2*q)-3)^6", "(tr(G*G*G)-3)^3", "(G[1,1]-1)^9*tr(G*G)"];
+    let traces =
+        ["tr(G^4*Ct^2)", "tr(G^3*Ct^2)", "tr(G*Ct*G*Ct*G)", "tr(phi^6)", "tr(G^16)", "(tr(G^2*Ct)-3)^4"];
+    let more = more.into_iter().chain(traces);
     let table = energies::TEXTS.iter().map(|(name, n, text)| (*name, *n, *text));
     for (name, n, text) in table.chain(more.map(|text| (text, 3, text))) {
         let work = product(n, text);

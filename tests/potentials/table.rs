@@ -6,10 +6,8 @@ use affine_runtime::prelude::*;
 /// A model beside the table.
 pub(crate) struct Energy {
     pub(crate) name: &'static str,
-    /// Of the full equations, at a point.
-    pub(crate) operations: String,
-    /// Of the reduced equations, along a motion.
-    pub(crate) reduced: String,
+    /// Of the full equations, at a point, and of the reduced ones, along a motion.
+    pub(crate) operations: [Operations; 2],
     pub(crate) rows: Vec<Row>,
 }
 
@@ -44,7 +42,7 @@ fn place(description: &Description, name: &str) -> Option<core::ops::Range<usize
 }
 
 /// `38* 12+ 1/ 1r`
-fn counted(operations: &Operations) -> String {
+pub(crate) fn counted(operations: &Operations) -> String {
     let Operations { mul, add, div, sqrt, exp, ln } = *operations;
     let some = [(div, "/"), (sqrt, "r"), (exp, "e"), (ln, "l")];
     let some: String = some.iter().filter(|(k, _)| *k > 0).map(|(k, sign)| format!(" {k}{sign}")).collect();
@@ -84,7 +82,6 @@ pub(crate) fn of<const N: usize, M: Model<N>>(name: &'static str, model: &M) -> 
             near: cells[9].parse().unwrap(),
         }
     });
-    let [operations, reduced] =
-        [description.full_operations, description.reduced_operations].map(|operations| counted(&operations));
-    Energy { name, operations, reduced, rows: rows.collect() }
+    let operations = [description.full_operations, description.reduced_operations];
+    Energy { name, operations, rows: rows.collect() }
 }

@@ -110,7 +110,7 @@ pub fn full_equations<const N: usize, M: Drawn<N>>() {
             let found = model.kinetic_energy(point.phi(), &velocity);
             assert_close("T", &[found], &[free.expected.hamiltonian], size, tolerance);
 
-            let rates = model.free_equations(T0, &model.flatten(&point));
+            let rates = model.hamilton_equations(T0, &model.flatten(&point));
             for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
                 assert_components(&reference, N, name, rate, M::ROUNDING);
             }
@@ -149,7 +149,7 @@ pub fn conserved_quantities<const N: usize, M: Drawn<N>>(held: bool) {
             let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
             states.iter().map(motion).collect()
         };
-        let group = (M::CONSTRAINT, false);
+        let group = M::CONSTRAINT;
         assert_listed(N, group, M::DESCRIPTION.conserved, &motions(&states), M::TRANSLATION);
         if held {
             assert_eq!(M::DESCRIPTION.conserved_at_rest, M::DESCRIPTION.conserved);

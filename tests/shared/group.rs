@@ -75,18 +75,15 @@ pub fn assert_components(reference: &Reference, n: usize, name: &str, rate: &[f6
     assert_close(name, rate, &independent, size, rounding * reference.condition);
 }
 
-/// The listed quantities are those that exist under the constraint, acting through its multiplier or not, and do not change
-/// along the motions.
+/// The listed quantities are those that exist under the constraint, and do not change along the motions.
 pub fn assert_listed(
     n: usize,
-    (constraint, multiplier): (Constraint, bool),
+    constraint: Constraint,
     listed: &[Conserved],
     motions: &[Motion],
     translation: bool,
 ) {
-    let named = |observable| {
-        exists(observable, n, translation) && !has_another_name(constraint, multiplier, observable)
-    };
+    let named = |observable| exists(observable, n, translation) && !has_another_name(constraint, observable);
     let brackets = |observable| motions.iter().map(|motion| motion.bracket(observable).unwrap()).collect();
     let listed = listed_as_a_whole(listed, named, BRACKET_ZERO, brackets);
     for &observable in Observable::ALL {
@@ -109,12 +106,10 @@ pub fn assert_listed(
 }
 
 /// Is the observable, at the projected momentum, a number or another observable?
-pub fn has_another_name(constraint: Constraint, multiplier: bool, observable: Observable) -> bool {
+pub fn has_another_name(constraint: Constraint, observable: Observable) -> bool {
     use Observable as O;
     let deviators = [O::Deviator, O::ComovingDeviator, O::DeviatorCasimir2, O::DeviatorCasimir3];
     let more: &[Observable] = match constraint {
-        // Nothing of Pi but its part in the dual of the algebra is known to this comparison.
-        Constraint::Isochoric if multiplier => &[O::Casimir1],
         Constraint::Isochoric => &[O::Casimir1],
         Constraint::Rigid => {
             &[O::AffineSpin, O::ComovingAffineSpin, O::Casimir1, O::Casimir2, O::Casimir3, O::VorticityNorm]

@@ -12,3 +12,8 @@ pub mod models;
 pub mod reference;
 pub mod specimens;
 pub mod tolerances;
+
+/// The examples of the README of the workspace, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}

@@ -47,7 +47,7 @@ pub struct Driven;
 )]
 pub struct Top;
 
-/// An incompressible body, kept so by a multiplier.
+/// An incompressible body.
 #[affine_model(
     dim = 2,
     constraint = isochoric,

@@ -41,8 +41,12 @@ macro_rules! specimens {
 /// Models whose expansions are reviewed line by line: every item that any model is given stands in one of them.
 pub const IN_FULL: &[Specimen] = specimens! {
     metrics_dalembert_3: "dim = 3, metrics(body = diag(1, 2, 4)), kinetic(dalembert = 3)";
+    fields_dalembert_2: "dim = 2, kinetic(dalembert = [[a, b], [b, c]], space_translation = a + c)",
+        "/// A body.
+        pub struct DAlembert { a: f64, b: f64, c: f64 }";
     lanes_missile_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), emit(lanes)";
-    isochoric_dalembert_3: "dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2";
+    isochoric_dalembert_2: "dim = 2, constraint = isochoric, kinetic(dalembert = diag(1, 1.5), space_translation = 2), \
+        potential = tr(G)/2";
     taylor_vibrating_2: "dim = 2, emit(taylor), kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1), \
         potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
     mixed_flat_affine_2: "dim = 2, kinetic(dalembert = 2, casimir2 = 0.2, space_translation = 1)";
@@ -202,6 +206,7 @@ pub const BY_EQUATIONS: &[Specimen] = specimens! {
     hencky_3: "dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^2 + q2^2 + q3^2";
     biot_driven_2: "dim = 2, kinetic(casimir2 = 0.2, space_inertia = 1), potential = cos(t)*(Q1 + Q2)";
     wells_dalembert_2: "dim = 2, kinetic(dalembert = 1), potential = pairs(cos(d))";
+    isochoric_dalembert_3: "dim = 3, constraint = isochoric, kinetic(dalembert = diag(1, 1.5, 2)), potential = tr(G)/2";
     isochoric_left_3: "dim = 3, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1)";
     isochoric_missile_2: "dim = 2, constraint = isochoric, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
         potential = neo_hookean(0.5)";
@@ -249,9 +254,6 @@ pub const BY_EQUATIONS: &[Specimen] = specimens! {
     fields_affine_3: "dim = 3, kinetic(casimir2 = a, casimir1_squared = b)",
         "/// A body.
         pub struct Affine { a: f64, b: f64 }";
-    fields_dalembert_3: "dim = 3, kinetic(dalembert = [[a, b, 0], [b, c, 0], [0, 0, 1]], space_translation = a + c)",
-        "/// A body.
-        pub struct DAlembert { a: f64, b: f64, c: f64 }";
     fields_body_tensor_2: "dim = 2, kinetic(casimir2 = a, \
          body_tensor = [[2, 0.5, 0, 1], [0.5, 3, 0.25, 0], [0, 0.25, -1, 0.5], [1, 0, 0.5, 4]])",
         "/// A body.
@@ -284,6 +286,13 @@ pub const BY_EQUATIONS: &[Specimen] = specimens! {
             pub i: f64,
             /// What attracts.
             pub gravity: U,
+        }";
+    self_gravity_3: "dim = 3, constraint = isochoric, kinetic(dalembert = 0.2), potential = self_gravity(1)";
+    self_gravity_gas_3: "dim = 3, kinetic(dalembert = 0.2, space_translation = 1), potential = gas(2) + self_gravity(k)",
+        "/// A star.
+        pub struct Star {
+            /// `G m^2/r`.
+            pub k: f64,
         }";
     generics_without_coefficients_2: "dim = 2, kinetic(casimir2 = 0.2)",
         "/// A body with a tag.

@@ -1,9 +1,9 @@
 //! Three routes to the derivative of a motion: the emitted equations, dual numbers through equations and closed forms, and
 //! differences of neighbouring motions.
 
+use affine_integrators::Failure;
 use affine_runtime::capability::Tangent;
 use affine_runtime::dual::Dual;
-use affine_runtime::integrate::Failure;
 use affine_runtime::model::StateVector;
 use affine_runtime::prelude::*;
 use affine_runtime::variation::Variation;
@@ -170,6 +170,24 @@ fn fields_are_differentiated() {
     let (x, p) = (Vector::<3>::new(0.1, 0.5, -0.2), Vector::<3>::new(0.3, -0.2, 0.5));
     let start = model.at_momentum(x, phi(), p, Comoving(spin())).unwrap();
     check!(model, start);
+}
+
+/// Potentials of single stretches, which are found by an iteration: dual numbers go through it.
+#[affine_model(dim = 3, kinetic(dalembert = 1), potential = exp(q1) + exp(q2) + exp(q3) - q1 - q2 - q3 + pairs(cosh(d)), emit(tangent))]
+struct Stretched;
+#[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = i), potential = pairs(cosh(2*d)) + 4*q^2, emit(tangent))]
+struct Paired {
+    i: f64,
+}
+
+#[test]
+fn stretches_are_differentiated() {
+    check!(Stretched, Stretched.at_momentum(phi(), TwoPoint(spin())).unwrap());
+    let paired = Paired { i: 1.0 }.prepare().unwrap();
+    let start = paired.at_momentum(phi(), Comoving(spin())).unwrap();
+    check!(paired, start);
+    // Where all of them coincide, no axes are determined.
+    check!(Stretched, Stretched.at_momentum(Matrix::<3>::identity() * 1.2, TwoPoint(spin())).unwrap());
 }
 
 #[affine_model(

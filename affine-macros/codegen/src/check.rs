@@ -64,6 +64,7 @@ pub fn as_written(spec: &Spec, found: &mut Diagnostics) -> Result<(), Reported> 
     shapes::sizes(spec, found);
     metrics::sizes(spec, found);
     potential::indices(spec, found);
+    custom::in_space(spec, found);
     arithmetic::computable(spec, found)?;
     potential::in_domain(spec, found);
     momentum_side::one_frame(spec, found);

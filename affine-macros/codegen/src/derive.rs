@@ -23,6 +23,7 @@ pub mod splitting;
 mod stated;
 mod symbols;
 mod trajectory;
+mod unconstrained;
 mod ways;
 mod well_posed;
 mod written;
@@ -62,7 +63,9 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let arena = &mut arena;
     let hessian = mass.constant().cloned();
     let motion = Motion::new(arena, parts, mass, stated.as_ref())?;
-    let written = potential.map(|u| Ways::new(arena, &u, motion.dim(), &motion.momenta()));
+    let free = unconstrained::motion(arena, &motion, &forces);
+    let momenta = [motion.momenta(), free.as_ref().map(Motion::momenta).unwrap_or_default()].concat();
+    let written = potential.map(|u| Ways::new(arena, &u, motion.dim(), &momenta));
     let at_points = written.as_ref().map(|ways| &ways.at_points);
     let potential = written.as_ref().map(|ways| &ways.along_motions);
     let body = Body { motion: &motion, potential, forces: &forces };
@@ -71,6 +74,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let closed_form = body.closed_form(arena);
     let chart = motion.full_chart(arena);
     let full = body.full_equations(arena, &chart, at_points, &mut coefficients)?;
+    let unconstrained = match &free {
+        Some(free) => Some(unconstrained::equations(arena, free, (at_points, &forces), &mut coefficients)?),
+        None => None,
+    };
     let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } =
         body.shortest_reduction(arena, rotations, asked, &mut coefficients)?;
     let described = Described {
@@ -100,7 +107,6 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let model = Model {
         dim: motion.dim(),
         constraint: motion.constraint(),
-        projected: motion.confined().is_some(),
         frame: motion.frame(),
         translation: motion.masses.frame(),
         regularity,
@@ -122,10 +128,11 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             tangent: None,
             second_order: pieces.second_order,
             packed: None,
+            unconstrained,
         },
         prepared: Prepared {
             coefficients: coefficient_program(arena, &coefficients),
-            numeric_blocks: numeric_blocks(arena, &motion, require_positive),
+            numeric_blocks: numeric_blocks(arena, free.as_ref().unwrap_or(&motion), require_positive),
             conditions: match &stated {
                 None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
                 Some(stated) => stated::conditions(arena, stated, require_positive),

@@ -1,6 +1,7 @@
 //! A derived model as Rust items; no algebra here.
 
 mod body;
+mod capability;
 mod closed_form;
 mod common;
 mod constructors;
@@ -33,6 +34,7 @@ mod tangent;
 mod taylor;
 mod trajectory;
 mod two_polar;
+mod unconstrained;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -83,6 +85,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let taylor = taylor::taylor_impl(&context);
     let lanes = lanes::implementation(&context);
     let packed = packed::implementation(&context);
+    let unconstrained = unconstrained::implementation(&context);
     let lints = metrics::lints(&context);
     quote! {
         #item
@@ -105,6 +108,7 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
             #tangent
             #lanes
             #packed
+            #unconstrained
         };
     }
 }
@@ -121,11 +125,8 @@ fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
     let description = description::constant(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
-    let splitting = splitting::capability(context);
-    let second_order = second_order::capability(context);
-    let taylor = taylor::capability(context);
-    let packing = packed::capability(context);
-    let others = quote!(#geodesic #splitting #second_order #taylor #packing);
+    let hooks = capability::hooks(context);
+    let others = quote!(#geodesic #hooks);
     let methods = dynamics::methods(context).into_iter().chain(reduction::methods(context)).chain([
         Method::Other(others),
         Method::Evaluation(forces::power(context)),

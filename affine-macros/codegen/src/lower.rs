@@ -10,7 +10,7 @@ mod potential;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 
-use crate::mechanics::custom::{Class, Custom, On, Role};
+use crate::mechanics::custom::{By, Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::metrics::{Metrics, Rebased};
@@ -63,7 +63,13 @@ pub fn forces(
     if let (Some(metrics), Some(dissipation)) = (metrics, &mut dissipation) {
         dissipation.decide_by(arena, metrics, &stated);
     }
-    let customs = spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
+    let mut customs: Vec<Custom> =
+        spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
+    for gravity in &spec.self_gravity {
+        if let Some(strength) = expression(arena, n, &gravity.strength) {
+            customs.push(Custom::self_gravity(customs.len() + 1, strength));
+        }
+    }
     Forces { dissipation, customs, driven: false }
 }
 
@@ -84,7 +90,7 @@ fn custom_field(place: usize, written: &spec::Custom) -> Custom {
         spec::Role::Finger => potential(Class::Finger),
         spec::Role::General => potential(Class::General),
     };
-    Custom { place, name: written.field.to_string(), role }
+    Custom { place, name: written.field.to_string(), role, by: By::Field }
 }
 
 fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient> {

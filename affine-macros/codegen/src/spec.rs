@@ -23,7 +23,7 @@ use crate::diagnostics::{Diagnostics, Reported};
 use expression_parser::Language;
 pub(crate) use expression_parser::application;
 
-pub use custom::{Custom, Mark, Role};
+pub use custom::{Custom, Mark, Role, SelfGravity};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator};
 pub use item::{Field, Item};
 pub use matrix_field::Storage;

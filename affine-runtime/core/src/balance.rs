@@ -1,4 +1,4 @@
-//! The balance laws of d'Alembert models, which `emit(balance)` computes (section 3).
+//! The balance laws of energies of `phi_dot`, which `emit(balance)` computes (section 3): of d'Alembert's
 //!
 //! ```text
 //! K     = phi J phi_dot^T           dK/dt     = phi_dot J phi_dot^T + N = Omega K + N      (3.6), (3.8)
@@ -6,6 +6,9 @@
 //! k     = m x_dot                   dk/dt     = F                                          (3.3)
 //! k_hat = phi^-1 k                  dk_hat/dt = -K_hat^T J^-1 k_hat + F_hat                (3.9)
 //! ```
+//!
+//! Other energies have `K = phi Pi` and `K_hat = Pi phi^-T` of their momentum `Pi`, `inertia = phi_dot Pi + phi dT/dphi` and
+//! `inertia_hat = (dT/dphi) phi^-T - K_hat Omega_hat^T`, the slope at fixed velocities taken with the indices of `Pi`.
 //!
 //! `K` has the components of the affine spin `Sigma`, since every force here is one beside the Lagrangian. Seen from the
 //! body it is another tensor: `K_hat = J Omega_hat^T`, whereas `Sigma_hat = K_hat G`. The moment `N = Q` and the force
@@ -16,15 +19,15 @@ use crate::frames::{Comoving, Matrix, Spatial, Vector};
 /// The balance of the kinematical spin, `N` by `N` matrices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance<const N: usize> {
-    /// `K = phi J phi_dot^T`.
+    /// `K = phi Pi`, `phi J phi_dot^T` of d'Alembert's energy.
     pub spin: Spatial<Matrix<N>>,
-    /// `phi_dot J phi_dot^T = Omega K`, the part of `dK/dt` without forces.
+    /// The part of `dK/dt` without forces, `phi_dot J phi_dot^T = Omega K` of d'Alembert's energy.
     pub inertia: Spatial<Matrix<N>>,
     /// `N`, the moment of the forces.
     pub moment: Spatial<Matrix<N>>,
     /// `K_hat = phi^-1 K phi^-T = J Omega_hat^T`; not `Sigma_hat`.
     pub spin_hat: Comoving<Matrix<N>>,
-    /// `-K_hat J^-1 K_hat`, the part of `dK_hat/dt` without forces.
+    /// The part of `dK_hat/dt` without forces, `-K_hat J^-1 K_hat` of d'Alembert's energy.
     pub inertia_hat: Comoving<Matrix<N>>,
     /// `N_hat = phi^-1 N phi^-T`.
     pub moment_hat: Comoving<Matrix<N>>,

@@ -190,7 +190,7 @@ fn inverse_sinh<T: Real>(y: T) -> T {
 #[allow(clippy::expect_used)]
 mod tests {
     use super::Breathing;
-    use affine_runtime::integrate::RungeKutta8;
+    use affine_integrators::RungeKutta8;
     use affine_runtime::model::{Group, Quantity};
 
     const T_END: f64 = 3.0;

@@ -6,9 +6,9 @@
 
 use crate::divisor::Divisor;
 use crate::lanes::{Lanes, in_lane};
-use crate::model::{Handle, Model};
+use crate::model::{Group, Handle, Model};
 use crate::scalar::{Real, Scalar};
-use crate::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum};
+use crate::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum, Unconstrained};
 use crate::vectors::{Portable, Vectors};
 
 /// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
@@ -298,6 +298,15 @@ impl<const N: usize, M: SecondOrderEquations<N>, H: Handle<N, Model = M>>
 
     fn renewed(&self, state: &M::Reduced<f64>) -> M::Reduced<f64> {
         self.0.model().renewed(state)
+    }
+}
+
+impl<const N: usize, M: Model<N> + Unconstrained, H: Handle<N, Model = M>> Unconstrained for Emitted<H, N> {
+    type State = M::State;
+    const GROUPS: &'static [Group] = M::GROUPS;
+
+    fn rates(&self, t: f64, state: &M::State) -> M::State {
+        self.0.model().rates(t, state)
     }
 }
 

@@ -47,11 +47,9 @@ pub(crate) fn condition<const N: usize, S: StateVector<f64>>(
 type Free = [bool; 3];
 
 fn free(description: &Description) -> Free {
-    let flat = description.full.iter().any(|group| group.quantity == Quantity::CanonicalMomentum);
     match description.constraint {
         None => [true; 3],
-        // Of a flat body the multiplier does what a projection does of the others.
-        Some(Constraint::Isochoric) => [true, true, flat],
+        Some(Constraint::Isochoric) => [true, true, false],
         Some(Constraint::Rigid) => [false, true, false],
         Some(Constraint::Conformal) => [false, true, true],
     }

@@ -2,7 +2,7 @@
 
 /// The group to which a motion is confined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Constraint {
     /// SL(n): `det phi = 1`.
     Isochoric,

@@ -13,15 +13,21 @@ pub use in_bases::{
 
 type Rows<const N: usize, T> = [[T; N]; N];
 
-fn matrix<const N: usize, T: Scalar>(rows: Rows<N, T>) -> Matrix<N, T> {
+/// What a force is told: the time, `x`, `phi`, `x_dot`, `phi_dot`.
+type Told<const N: usize, T> = (T, [T; N], Rows<N, T>, [T; N], Rows<N, T>);
+
+/// The matrix with the given rows.
+pub fn matrix<const N: usize, T: Scalar>(rows: Rows<N, T>) -> Matrix<N, T> {
     Matrix::from_fn(|i, j| rows[i][j])
 }
 
-fn rows<const N: usize, T: Scalar>(matrix: &Matrix<N, T>) -> Rows<N, T> {
+/// The rows of a matrix.
+pub fn rows<const N: usize, T: Scalar>(matrix: &Matrix<N, T>) -> Rows<N, T> {
     core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
 }
 
-fn components<const N: usize, T: Scalar>(vector: &Vector<N, T>) -> [T; N] {
+/// The components of a vector.
+pub fn components<const N: usize, T: Scalar>(vector: &Vector<N, T>) -> [T; N] {
     core::array::from_fn(|i| vector[i])
 }
 
@@ -40,11 +46,7 @@ pub fn as_force<const N: usize, Q: Form<N>, F: Force<N, Form = Q>>(field: &F) ->
 
 fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
     force: &F,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> <F::Form as Form<N>>::Value<T> {
     const {
         assert!(
@@ -52,6 +54,7 @@ fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
             "`gyroscopic` in `forces = custom(..)` and `Force::GYROSCOPIC` of the field's type differ"
         );
     }
+    let (t, x, phi, x_dot, phi_dot) = told;
     let motion = Motion { t, x: x.into(), phi: matrix(phi), x_dot: x_dot.into(), phi_dot: matrix(phi_dot) };
     force.force(&motion)
 }
@@ -60,26 +63,18 @@ fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
 #[inline]
 pub fn spatial_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Spatial>>(
     force: &F,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> Rows<N, T> {
-    rows(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+    rows(&asked::<N, GYROSCOPIC, T, F>(force, told))
 }
 
 /// `Q_hat`.
 #[inline]
 pub fn comoving_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Comoving>>(
     force: &F,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> Rows<N, T> {
-    rows(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+    rows(&asked::<N, GYROSCOPIC, T, F>(force, told))
 }
 
 /// `Q_tr`.
@@ -91,13 +86,9 @@ pub fn translational_force<
     F: Force<N, Form = Translation>,
 >(
     force: &F,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> [T; N] {
-    components(&asked::<N, GYROSCOPIC, T, F>(force, t, x, phi, x_dot, phi_dot))
+    components(&asked::<N, GYROSCOPIC, T, F>(force, told))
 }
 
 fn place<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(

@@ -1,32 +1,39 @@
 //! What is known of a model in words and numbers.
 
 use crate::constraint::Constraint;
-use crate::quantity::Group;
+use crate::quantity::{Group, Word};
 
 /// What was derived about a model; made by the macro alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Description {
     /// Name of the user's type.
-    pub name: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub name: Word,
     /// The kinetic energy.
     pub kinetic_energy: Formula,
     /// The Hamiltonian.
     pub hamiltonian: Formula,
     /// Hamilton's equations in the model's frames.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub equations: &'static [Formula],
     /// The reduced equations.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub reduced_equations: &'static [Formula],
     /// Numbers of positive and negative directions of the kinetic metric, internal and translational; `None`
     /// where they depend on the fields' values.
     pub signature: Option<(usize, usize)>,
     /// What every motion conserves.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub conserved: &'static [Conserved],
     /// What motions with `p = 0` conserve; the same list for a model without translation.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub conserved_at_rest: &'static [Conserved],
     /// Components of the plain array, group after group.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub full: &'static [Group],
     /// Components of the reduced state, group after group.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub reduced: &'static [Group],
     /// Operations of Hamilton's equations.
     pub full_operations: Operations,
@@ -37,26 +44,30 @@ pub struct Description {
     /// Are the reduced equations `q'' = f(t, q)`, as `emit(nystrom)` integrates them?
     pub second_order: bool,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub domain: &'static [Guard],
     /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`](crate::Model::domain) gives the angles.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::words"))]
     pub angles: &'static [&'static str],
     /// What was taken out of the state.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub left_out: &'static [LeftOut],
 }
 
 /// Something that is not integrated, and in which runs it is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LeftOut {
     /// What it is and why, in words.
-    pub what: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub what: Word,
     /// The runs.
     pub scope: Scope,
 }
 
 /// The runs that leave something out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Scope {
     /// Every run of the model.
     Model,
@@ -71,19 +82,21 @@ pub enum Scope {
 /// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
 /// are those of [`Model::domain`](crate::Model::domain).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Guard {
     /// The part, as written: `ln(q)`, `1/x[1]`.
-    pub part: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub part: Word,
     /// The function, as written: `q`, `x[1]`.
-    pub argument: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub argument: Word,
     /// The signs that it may have.
     pub bound: Bound,
 }
 
 /// The signs that a function of the state may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Bound {
     /// Above zero: the argument of a logarithm.
     Positive,
@@ -98,17 +111,19 @@ pub enum Bound {
 /// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
 /// `self.name`, in LaTeX in typewriter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Formula {
     /// Plain text.
-    pub text: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub text: Word,
     /// LaTeX, without delimiters.
-    pub latex: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub latex: Word,
 }
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,
@@ -132,7 +147,7 @@ impl Operations {
 /// A quantity that a model may conserve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Conserved {
     /// Energy `H`.
     Energy,
@@ -184,17 +199,19 @@ pub enum Conserved {
 /// conserves: a basis, without what follows from momenta that are conserved as a whole. Sums whose factors depend on the fields
 /// of the model, or have ratios of numbers above 32768, are not listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Component {
     /// The formula.
-    pub symbol: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+    pub symbol: Word,
     /// The multiples of entries of momenta whose sum it is.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub entries: &'static [Entry],
 }
 
 /// A multiple of an entry of a momentum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Entry {
     /// How often it is taken.
     pub factor: i64,

@@ -1,8 +1,9 @@
-//! Jacobi elliptic functions and the elliptic integral that inverts them.
+//! Carlson's elliptic integral `R_F`; Jacobi's functions, and the integral that inverts them.
 
 use crate::scalar::Real;
 
-/// Most halvings of the arithmetic-geometric mean: quadratic convergence needs fewer for any number format.
+/// Most halvings of the arithmetic-geometric mean: quadratic convergence needs fewer for any number format. Duplications likewise
+/// halve the logarithms of proportions, and then bring arguments four times closer to each other.
 const LEVELS: usize = 40;
 
 /// `sn(u|m)`, `cn(u|m)`, `dn(u|m)`.
@@ -81,34 +82,48 @@ pub(crate) fn argument<T: Real>(sn: T, cn: T, m1: T) -> T {
     if cn < T::zero() { T::from_f64(2.0) * quarter_period(m1) - first } else { first }
 }
 
-/// Carlson's symmetric integral `R_F(x, y, z)`, at most one argument zero, by duplication and a series of order
-/// seven (B. C. Carlson, Numerical Algorithms 10, 13, 1995; DLMF 19.36.1).
-fn carlson_rf<T: Real>(x: T, y: T, z: T) -> T {
+/// `R_F(x, y, z) = 1/2 int_0^inf ((t + x)(t + y)(t + z))^(-1/2) dt`, symmetric, of arguments that are not negative and of which
+/// at most one is zero; not a number elsewhere (NIST DLMF 19.16.1), by duplication and a series of order seven (B.
+/// C. Carlson, Numerical Algorithms 10 (1995) 13; 19.36.1).
+///
+/// The energy of a homogeneous ellipsoid of mass `m` with half axes `a`, `b`, `c` in its own gravity is
+/// `-(3/5) G m^2 R_F(a^2, b^2, c^2)` (S. Chandrasekhar, Ellipsoidal Figures of Equilibrium, 1969, chapter 3).
+///
+/// ```
+/// use affine_runtime::elliptic::carlson_rf;
+///
+/// // Of a ball of radius 2, and of an ellipsoid with the axes 1, 2, 3.
+/// assert_eq!(carlson_rf(4.0, 4.0, 4.0), 0.5);
+/// assert!((carlson_rf(1.0_f64, 4.0, 9.0) - 0.508_644_618_570_030_2).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn carlson_rf<T: Real>(x: T, y: T, z: T) -> T {
     let number = T::from_f64;
-    let (mut x, mut y, mut z) = (x, y, z);
-    let mean = |x: T, y: T, z: T| (x + y + z) / number(3.0);
-    let mut a = mean(x, y, z);
-    let limit = (T::EPSILON * number(0.25)).sqrt().sqrt().sqrt();
+    let [a, u, v] = duplicated([x, y, z], |[x, y, z]| (x + y + z) / number(3.0), |_, _| {});
+    let w = -(u + v);
+    let (e2, e3) = (u * v - w * w, u * v * w);
+    let low = T::one() - e2 / number(10.0) + e3 / number(14.0) + e2 * e2 / number(24.0);
+    let threes = number(3.0) * e3 * (e3 / number(104.0) - e2 / number(44.0));
+    (low + threes + e2 * e2 * (e3 / number(16.0) - number(5.0) * e2 / number(208.0))) / a.sqrt()
+}
+
+/// `x -> (x + lambda)/4` with `lambda = sqrt(xy) + sqrt(yz) + sqrt(zx)`, until the arguments are so close to their mean `a` that
+/// series of order seven are exact to rounding: `a`, `1 - x/a` and `1 - y/a`. `each` is told `sqrt(z)` and `z + lambda`.
+pub fn duplicated<T: Real>(mut x: [T; 3], mean: impl Fn([T; 3]) -> T, mut each: impl FnMut(T, T)) -> [T; 3] {
+    let limit = (T::EPSILON * T::from_f64(0.25)).sqrt().sqrt().sqrt();
+    let mut a = mean(x);
     for _ in 0..LEVELS {
-        let spread = [x, y, z].map(|each| (a - each).abs());
-        let apart = spread.iter().any(|s| *s > limit * a);
-        if !apart {
+        // Written so that NaN ends it as well.
+        if !x.iter().any(|value| (a - *value).abs() > limit * a) {
             break;
         }
-        let lambda = x.sqrt() * y.sqrt() + y.sqrt() * z.sqrt() + z.sqrt() * x.sqrt();
-        let quarter = |value: T| (value + lambda) * number(0.25);
-        (x, y, z, a) = (quarter(x), quarter(y), quarter(z), quarter(a));
+        let root = x.map(T::sqrt);
+        let lambda = root[0] * root[1] + root[1] * root[2] + root[2] * root[0];
+        each(root[2], x[2] + lambda);
+        x = x.map(|value| (value + lambda) * T::from_f64(0.25));
+        a = mean(x);
     }
-    let (u, v) = ((a - x) / a, (a - y) / a);
-    let w = -(u + v);
-    let e2 = u * v - w * w;
-    let e3 = u * v * w;
-    let series = T::one() - e2 / number(10.0) + e3 / number(14.0) + e2 * e2 / number(24.0)
-        - number(3.0) * e2 * e3 / number(44.0)
-        - number(5.0) * e2 * e2 * e2 / number(208.0)
-        + number(3.0) * e3 * e3 / number(104.0)
-        + e2 * e2 * e3 / number(16.0);
-    series / a.sqrt()
+    [a, (a - x[0]) / a, (a - x[1]) / a]
 }
 
 #[cfg(test)]

@@ -192,8 +192,7 @@ impl fmt::Display for Error {
             Error::NoReference { model } => write!(
                 f,
                 "no reference for {model}: it has no closed form from this start, and its equations in double-double \
-                 arithmetic did not reach the end in 100000 steps of order 20, or leave out a multiplier (`dalembert` under \
-                 `constraint = isochoric`); give the phase point at the end with `.against(point)`, or a shorter interval"
+                 arithmetic did not reach the end in 100000 steps of order 20; give the phase point at the end with `.against(point)`, or a shorter interval"
             ),
             #[cfg(feature = "std")]
             Error::File { path, kind } => {

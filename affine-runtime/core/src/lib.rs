@@ -20,6 +20,7 @@ pub mod error;
 pub mod force;
 pub mod frames;
 pub mod geodesic;
+mod interned;
 pub mod kinematics;
 pub mod lanes;
 mod matrix;

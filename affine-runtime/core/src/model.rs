@@ -14,7 +14,7 @@ pub use crate::regularity::Regularity;
 use crate::scalar::{Real, Scalar};
 use crate::state::Phase;
 pub use crate::system::StateVector;
-use crate::system::{NotEmitted, Packing, Pieces, SecondOrder, Series};
+use crate::system::{NotEmitted, Packing, Pieces, SecondOrder, Series, Unconstrained};
 pub use crate::velocity::Velocity;
 
 /// A model of an affinely-rigid body in dimension `N`: Legendre transformation, Hamiltonian, Hamilton's
@@ -62,15 +62,7 @@ pub trait Model<const N: usize> {
     /// The point from a plain array, unchecked.
     fn unflatten<T: Real>(&self, full: &Self::Full<T>) -> Self::Point<T>;
     /// Hamilton's equations over the plain array: its time derivative.
-    ///
-    /// Not for `dalembert` under `constraint = isochoric`, whose motion is kept on `det phi = 1` by a multiplier that the
-    /// methods of a `Simulation` solve for: a call does not compile there.
     fn hamilton_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T>;
-    /// The same without the multiplier of a constraint, for the methods that solve for it.
-    #[doc(hidden)]
-    fn free_equations<T: Scalar>(&self, t: T, full: &Self::Full<T>) -> Self::Full<T> {
-        self.hamilton_equations(t, full)
-    }
 
     /// The reduced state and the constants of the trajectory that passes through `point` at time `t0`.
     fn reduce<T: Real>(&self, t0: T, point: &Self::Point<T>) -> (Self::Reduced<T>, Self::Constants<T>);
@@ -173,6 +165,8 @@ pub trait Model<const N: usize> {
         tensor.components(self.bases().as_ref())
     }
 
+    /// Every motion of the model has a closed form, [`geodesic`](Self::geodesic): the automatic method integrates nothing.
+    const IS_GEODESIC: bool = false;
     /// The closed form of the trajectory through `point` at time `t0`, where the model and the scene have one.
     fn geodesic(&self, _t0: f64, _point: &Self::Point<f64>) -> Option<crate::geodesic::Geodesic<N>> {
         None
@@ -185,6 +179,16 @@ pub trait Model<const N: usize> {
         start: &Self::Point<f64>,
     ) -> Self::Point<f64> {
         geodesic.point(t, start)
+    }
+    /// When a closed form from the placement `start` leaves GL+(n) on the way to `t_end`, as straight lines alone do:
+    /// [`Geodesic::collapse`](crate::geodesic::Geodesic::collapse).
+    fn collapse(
+        &self,
+        _geodesic: &crate::geodesic::Geodesic<N>,
+        _t_end: f64,
+        _start: &Matrix<N>,
+    ) -> Option<f64> {
+        None
     }
 
     /// The Taylor coefficients of the reduced motion, where `emit(taylor)` asked for them.
@@ -221,6 +225,16 @@ pub trait Model<const N: usize> {
     fn packing(
         _model: impl Handle<N, Model = Self>,
     ) -> Option<impl Packing<Self::Reduced<f64>, Self::Constants<f64>>>
+    where
+        Self: Sized,
+    {
+        None::<NotEmitted>
+    }
+
+    /// The equations without the constraint `det phi = 1`, where they are those of masses under forces that depend on positions
+    /// alone.
+    #[doc(hidden)]
+    fn unconstrained(_model: impl Handle<N, Model = Self>) -> Option<impl Unconstrained>
     where
         Self: Sized,
     {

@@ -144,7 +144,7 @@ pub trait Parametric<const N: usize>: Model<N> {
         self.unflatten(full)
     }
 
-    /// [`Model::hamilton_equations`], without the multiplier of a constraint.
+    /// [`Model::hamilton_equations`].
     fn hamilton_equations_with<T: Scalar>(
         &self,
         coefficients: &Self::Coefficients<T>,

@@ -8,9 +8,9 @@ pub use crate::capability::{Emitted, InLanes, PackedEquations, SecondOrderEquati
 pub use crate::coefficients::{bases_beside, beside_bases, joined, square, table};
 pub use crate::confined::{confined_point, in_the_algebra, on_the_group, projected};
 pub use crate::custom::{
-    as_force, as_potential, comoving_force, comoving_force_in, potential_energy, potential_energy_in,
-    potential_slopes, potential_slopes_in, spatial_force, spatial_force_in, translational_force,
-    translational_force_in,
+    as_force, as_potential, comoving_force, comoving_force_in, components, matrix, potential_energy,
+    potential_energy_in, potential_slopes, potential_slopes_in, rows, spatial_force, spatial_force_in,
+    translational_force, translational_force_in,
 };
 pub use crate::decompose::{log_stretches, principal_log_stretches, principal_stretches, skew_exponential};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
@@ -21,8 +21,7 @@ pub use crate::frames::{
     Body, Canonical, Comoving, Matrix, Momentum, OfCentre, Space, Spatial, TwoPoint, Vector, inverse,
 };
 pub use crate::geodesic::{Geodesic, Motion};
-pub use crate::kinematics::dilatation::far_from_undeformed;
-pub use crate::kinematics::{dilatation, isochoric_part, mean_log_stretch};
+pub use crate::kinematics::{dilatation, dilatation::far_from_undeformed, isochoric_part, mean_log_stretch};
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::matrix_field::symmetric_part;
 pub use crate::metrics::forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
@@ -41,7 +40,7 @@ pub use crate::reduction::{
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
 pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
-pub use crate::system::{Packing, Pieces, SecondOrder, Series};
+pub use crate::system::{Packing, Pieces, SecondOrder, Series, Unconstrained};
 pub use crate::unprepared::{IsPrepared, NotPrepared, Unprepared};
 pub use crate::vectors::Vectors;
 
@@ -92,43 +91,6 @@ pub const fn no_kinetic_energy_of_velocities<T>() -> T {
     )
 }
 
-/// Stops the compilation of a call of `hamilton_equations` for a motion that a multiplier keeps on its constraint.
-///
-/// ```compile_fail,E0080
-/// use affine_runtime::prelude::*;
-///
-/// #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G))]
-/// struct Drop;
-///
-/// let start = Drop.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
-/// let _ = Drop.hamilton_equations(0.0, &Drop.flatten(&start));
-/// ```
-///
-/// # Panics
-/// Always, and only while the compiler evaluates it.
-#[allow(clippy::panic, reason = "evaluated by the compiler alone: the panic is the error message")]
-pub const fn no_equations_without_multiplier<T>() -> T {
-    panic!(
-        "`dalembert` under `constraint = isochoric` is kept on det phi = 1 by a multiplier, which is not in the plain \
-         equations; run a `Simulation`, or state the same energy by `flat_tensor`, whose equations contain it"
-    )
-}
-
-/// The rows of a matrix.
-pub fn rows<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> [[T; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
-}
-
-/// The matrix with the given rows.
-pub fn matrix<const N: usize, T: Scalar>(rows: [[T; N]; N]) -> Matrix<N, T> {
-    Matrix::from_fn(|i, j| rows[i][j])
-}
-
-/// The components of a vector.
-pub fn components<const N: usize, T: Real>(vector: &Vector<N, T>) -> [T; N] {
-    core::array::from_fn(|i| vector[i])
-}
-
 /// The vector with the given components.
 pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
     Vector::from(components)
@@ -138,11 +100,13 @@ pub fn vector<const N: usize, T: Real>(components: [T; N]) -> Vector<N, T> {
 pub mod numerics {
     pub use crate::decompose::exponential::{LN2_HIGH, LN2_LOW, SERIES};
     pub use crate::divisor::{Divisor, HIGHEST_ORDER, LOWEST_ORDER};
+    pub use crate::elliptic::{carlson_rf, duplicated};
+    #[cfg(feature = "serde")]
+    pub use crate::interned::{constant, number, word};
     pub use crate::kinematics::dilatation::LogDeterminant;
     pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
     pub use crate::reduction::jacobi;
     pub use crate::scalar::inverse_cbrt::of_regular;
-    pub use crate::system::NotEmitted;
-    pub use crate::system::is_emitted;
+    pub use crate::system::{NotEmitted, is_emitted};
     pub use crate::vectors::{IS_FUSED, Portable, Vectors};
 }

@@ -1,9 +1,12 @@
 //! What the components of a state are.
 
+/// A text that stands in a program, or that was read into it.
+pub(crate) type Word = &'static str;
+
 /// A quantity that stands in a state as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// The place of the centre of mass, `x`.
     Position,
@@ -52,7 +55,7 @@ pub enum Quantity {
     /// `R` in it.
     RightRotation,
     /// Something else, by its name: a state of equations of one's own.
-    Other(&'static str),
+    Other(#[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))] Word),
 }
 
 impl Quantity {
@@ -95,7 +98,7 @@ impl Quantity {
 
 /// A run of components of a state vector that form one geometric object.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
     /// What it is.
     pub quantity: Quantity,

@@ -51,6 +51,12 @@ pub trait Scalar:
         self * factor + term
     }
 
+    /// What tells directions apart: the numbers themselves, or, where both vanish beside `size` and have derivatives, these.
+    #[inline(always)]
+    fn told_apart(numbers: [Self; 2], _size: Self) -> [Self; 2] {
+        numbers
+    }
+
     /// `self + a * b`, as [`fma`](Self::fma) has it.
     #[inline(always)]
     #[must_use]

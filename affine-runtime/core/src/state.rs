@@ -24,7 +24,9 @@ pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
     fn momentum(&self) -> Vector<N, T>;
     /// The same momentum at another position; a pinned body stays.
     #[must_use]
-    fn moved(&self, x: Vector<N, T>) -> Self;
+    fn moved(&self, x: Vector<N, T>) -> Self {
+        self.replaced(x, self.momentum())
+    }
     /// The same at another position and with another momentum; a pinned body stays.
     #[must_use]
     fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self;
@@ -46,9 +48,6 @@ impl<const N: usize, T: Real> Translation<N, T> for Pinned {
     }
     fn momentum(&self) -> Vector<N, T> {
         Vector::<N, T>::zeros()
-    }
-    fn moved(&self, _x: Vector<N, T>) -> Self {
-        *self
     }
     fn rebased(&self, _bases: &Bases<N, T>) -> Self {
         *self
@@ -73,9 +72,6 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     }
     fn momentum(&self) -> Vector<N, T> {
         self.p
-    }
-    fn moved(&self, x: Vector<N, T>) -> Self {
-        Self { x, p: self.p }
     }
     fn rebased(&self, bases: &Bases<N, T>) -> Self {
         Self { x: bases.space * self.x, p: bases.space_inverse.tr_mul(&self.p) }
@@ -170,6 +166,9 @@ pub trait Phase<const N: usize, T: Real = f64>: Copy + Debug + PartialEq {
     /// The point with other numbers, in the order of [`entries`](Self::entries), unchecked.
     #[must_use]
     fn with_entries(&self, next: &mut dyn FnMut() -> T) -> Self;
+    /// The point with other canonical coordinates, unchecked; a pinned body has no `x` and no `p`.
+    #[must_use]
+    fn with_canonical(&self, phi: Matrix<N, T>, pi: Matrix<N, T>, x: Vector<N, T>, p: Vector<N, T>) -> Self;
     /// Placement, momentum and centre of mass are finite.
     fn is_finite(&self) -> bool;
 }
@@ -286,6 +285,9 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis> Phase<N,
         let (phi, spin) = (Matrix::<N, T>::from_fn(|_, _| next()), Matrix::<N, T>::from_fn(|_, _| next()));
         let (x, p) = (Vector::<N, T>::from_fn(|_, _| next()), Vector::<N, T>::from_fn(|_, _| next()));
         Self::new(phi, spin, self.centre.replaced(x, p))
+    }
+    fn with_canonical(&self, phi: Matrix<N, T>, pi: Matrix<N, T>, x: Vector<N, T>, p: Vector<N, T>) -> Self {
+        Self::with_momentum(phi, TwoPoint(AffineSpin(pi)), self.centre.replaced(x, p))
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())

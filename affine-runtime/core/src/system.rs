@@ -2,6 +2,7 @@
 
 use core::fmt::Debug;
 
+use crate::quantity::Group;
 use crate::scalar::Scalar;
 use crate::vectors::Vectors;
 
@@ -119,6 +120,19 @@ pub trait Packing<S, C> {
     fn slope(&self, vectors: impl Vectors, t: f64, constants: &C, packed: &Self::Packed) -> Self::Packed;
 }
 
+/// `phi' = T'(Pi)`, `Pi' = F(t, phi)`, with a centre of mass or without: the motion of a body without its constraint
+/// `det phi = 1`, for a method that solves for the multiplier. Models have it that are masses under forces that depend on
+/// positions alone.
+pub trait Unconstrained {
+    /// Placement and canonical momentum, with the centre of mass where there is one.
+    type State: StateVector<f64>;
+    /// What the components of a state are.
+    const GROUPS: &'static [Group];
+
+    /// The time derivative of a state.
+    fn rates(&self, t: f64, state: &Self::State) -> Self::State;
+}
+
 /// A capability that was not emitted: there is no such value.
 #[derive(Clone, Copy, Debug)]
 pub enum NotEmitted {}
@@ -159,6 +173,15 @@ impl<S, C> SecondOrder<S, C> for NotEmitted {
     }
 
     fn renewed(&self, _: &S) -> S {
+        match *self {}
+    }
+}
+
+impl Unconstrained for NotEmitted {
+    type State = [f64; 0];
+    const GROUPS: &'static [Group] = &[];
+
+    fn rates(&self, _: f64, _: &[f64; 0]) -> [f64; 0] {
         match *self {}
     }
 }

@@ -7,13 +7,12 @@ pub use coefficients::Tableau;
 #[cfg(test)]
 pub(crate) use coefficients::legendre_roots as exact;
 
-use core::fmt;
-
+use super::Failure;
+use super::drive::{Equal, EqualStepMethod};
 use super::equal_steps::{EqualSteps, Times};
 use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::tape::Tape;
-use super::{Failure, Statistics};
 use affine_core::model::StateVector;
 use coefficients::MOST_STAGES;
 use equations::{Equations, Field, Increments, Start};
@@ -34,18 +33,20 @@ use equations::{Equations, Field, Increments, Start};
 ///
 /// A solution of the stage equations need not be unique where the step is far too long: the one found is the one
 /// the iteration leads to.
+pub type Gauss<S, F, C = Flat> = Equal<GaussSteps<S, F, C>>;
+
+/// Steps of Gauss collocation.
 #[derive(Clone)]
-pub struct Gauss<S, F, C = Flat> {
+pub struct GaussSteps<S, F, C> {
     f: F,
     coordinates: C,
     equations: Equations<S>,
-    steps: EqualSteps<Sum<S>>,
     /// Of the last step; before the first, those that the slope at the start gives.
     increments: Increments<S>,
     residual: f64,
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<GaussSteps<S, F, Flat>> {
     /// The integration at its start. One evaluation.
     ///
     /// # Errors
@@ -62,7 +63,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Gauss<S, F> {
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Equal<GaussSteps<S, F, C>> {
     /// The integration at its start, in other coordinates: on a group, in the chart around the middle of each step,
     /// which keeps the method symmetric. What it says of linear and quadratic invariants then holds for those of the
     /// components beside the placement. One evaluation.
@@ -92,117 +93,77 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
         }
         let mut equations = Equations::new(tableau);
         equations.evaluations = 1;
-        let steps = EqualSteps::at(times, start);
-        Ok(Self { f, coordinates, equations, steps, increments, residual: 0.0 })
-    }
-
-    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
-    ///
-    /// # Errors
-    /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
-        let scale = h / self.steps.last_length();
-        let guess = if self.steps.taken() == 0 { self.increments } else { self.continued(1.0, scale) };
-        let solved = self.step(t, begin, h, guess).map(|(end, increments, residual)| {
-            self.residual = if residual > self.residual { residual } else { self.residual };
-            self.increments = increments;
-            end
-        });
-        self.steps.take(solved)
-    }
-
-    /// The state at a time within the last step, by a shorter step of the same method from its beginning: of the
-    /// same order as the steps, which the collocation polynomial is not, and without influence on them. Costs about
-    /// as many evaluations as a step. The state reached where no step has been taken.
-    ///
-    /// # Errors
-    /// As [`advance`](Self::advance), but the integration can go on.
-    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        let Some((from, begin, h)) = self.steps.again_to(t) else { return Ok(*self.y()) };
-        if h == 0.0 {
-            return Ok(begin.value);
-        }
-        let guess = self.continued(0.0, h / self.steps.last_length());
-        // The Jacobian that the steps work with, and whether they need one, stay as they are.
-        let steps = self.equations.clone();
-        let between = self.step(from, begin, h, guess);
-        let evaluations = self.equations.evaluations;
-        self.equations = steps;
-        self.equations.evaluations = evaluations;
-        between.map(|(end, ..)| end.value)
-    }
-
-    /// Goes on to another end of the interval.
-    ///
-    /// # Errors
-    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
-        self.steps.aim(t_end)
-    }
-
-    /// Everything that the next steps depend on, as long as these do not take Newton's iteration, which keeps a
-    /// Jacobian with its factors.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        self.steps.exchange(tape, |tape, end| tape.sum(end));
-        self.increments.iter_mut().for_each(|increment| tape.state(increment));
-        tape.number(&mut self.residual);
-        tape.bits(&mut self.equations.evaluations);
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.steps.t()
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.steps.end().value
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.steps.is_finished()
-    }
-
-    /// Cost so far, with that of [`at`](Self::at). No step is rejected.
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        Statistics {
-            steps: self.steps.taken(),
-            evaluations: self.equations.evaluations,
-            ..Statistics::default()
-        }
-    }
-
-    /// Length of the steps, negative backward in time.
-    #[must_use]
-    pub fn step_length(&self) -> f64 {
-        self.steps.times().length()
-    }
-
-    /// Largest defect that the iteration left in the stage equations of a step, relative to the largest component of
-    /// state and increments: a few roundings, times the stiffness where there is one.
-    #[must_use]
-    pub fn residual(&self) -> f64 {
-        self.residual
+        let method = GaussSteps { f, coordinates, equations, increments, residual: 0.0 };
+        Ok(Self { method, steps: EqualSteps::at(times, start) })
     }
 
     /// Fixed-point iteration did not contract, and steps take Newton's iteration.
     #[must_use]
     pub fn is_stiff(&self) -> bool {
-        self.equations.is_stiff()
+        self.method.equations.is_stiff()
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> EqualStepMethod for GaussSteps<S, F, C> {
+    type State = S;
+    type Point = Sum<S>;
+    const NAME: &'static str = "Gauss";
+
+    fn state(point: &Sum<S>) -> &S {
+        &point.value
     }
 
-    fn step(
+    fn step(&mut self, from: (f64, Sum<S>), h: f64, last: Option<f64>) -> Result<Sum<S>, Failure> {
+        let guess = last.map_or(self.increments, |last| self.continued(1.0, h / last));
+        let (end, increments, residual) = self.solved(from, h, guess)?;
+        self.residual = if residual > self.residual { residual } else { self.residual };
+        self.increments = increments;
+        Ok(end)
+    }
+
+    /// Of the same order as the steps, which the collocation polynomial is not.
+    fn within(&mut self, from: (f64, Sum<S>), h: f64, last: f64) -> Result<Sum<S>, Failure> {
+        let guess = self.continued(0.0, h / last);
+        // The Jacobian that the steps work with, and whether they need one, stay as they are.
+        let steps = self.equations.clone();
+        let between = self.solved(from, h, guess);
+        let evaluations = self.equations.evaluations;
+        self.equations = steps;
+        self.equations.evaluations = evaluations;
+        between.map(|(end, ..)| end)
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.equations.evaluations
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        self.increments.iter_mut().for_each(|increment| tape.state(increment));
+        tape.number(&mut self.residual);
+        tape.bits(&mut self.equations.evaluations);
+    }
+
+    fn exchange_point(tape: &mut impl Tape, point: &mut Sum<S>) {
+        tape.sum(point);
+    }
+
+    /// As long as steps do not take Newton's iteration, which keeps a Jacobian with its factors.
+    fn is_exchanged(&self) -> bool {
+        !self.equations.is_stiff()
+    }
+
+    /// The defect that the iteration left in the stage equations of a step, relative to the largest component of state and
+    /// increments: a few roundings, times the stiffness where there is one.
+    fn residual(&self) -> Option<f64> {
+        Some(self.residual)
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> GaussSteps<S, F, C> {
+    /// The end of a step, its increments, and the defect that they leave.
+    fn solved(
         &mut self,
-        t: f64,
-        begin: Sum<S>,
+        (t, begin): (f64, Sum<S>),
         h: f64,
         guess: Increments<S>,
     ) -> Result<(Sum<S>, Increments<S>, f64), Failure> {
@@ -239,17 +200,5 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Gauss<S, F, C>
             }
         }
         continued
-    }
-}
-
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> fmt::Debug for Gauss<S, F, C> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Gauss")
-            .field("stages", &self.equations.tableau.stages())
-            .field("t", &self.t())
-            .field("y", self.y())
-            .field("steps", self.steps.times())
-            .field("statistics", &self.statistics())
-            .finish_non_exhaustive()
     }
 }

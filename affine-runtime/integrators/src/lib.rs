@@ -1,8 +1,9 @@
-//! Integrators of `y' = f(t, y)` for fixed-size state vectors. They do not allocate. Users name `affine_runtime`, which has
-//! them as its module `integrate`.
+//! Integrators of `y' = f(t, y)` for fixed-size state vectors. They do not allocate. `affine_runtime` runs
+//! models by them.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 mod composition;
+mod drive;
 mod equal_steps;
 mod error_norm;
 mod finite;
@@ -25,6 +26,7 @@ pub mod taylor;
 mod vectors;
 mod widest;
 
+pub use drive::{Adaptive, Equal};
 pub use error_norm::ErrorNorm;
 pub use gauss::Gauss;
 pub use nystrom::RungeKuttaNystrom;
@@ -33,7 +35,7 @@ pub use rattle::Rattle;
 pub use runge_kutta::{RungeKutta5, RungeKutta8};
 pub use splitting::{AdaptiveSplitting, Splitting};
 pub use taylor::Taylor;
-pub use widest::is_fused;
+pub use widest::{FusedArithmetic, fused_arithmetic};
 
 use core::fmt;
 
@@ -52,10 +54,10 @@ pub mod __private {
 
     /// What runs use.
     pub mod runs {
+        pub use crate::drive::{AdaptiveMethod, Control, EqualStepMethod};
         pub use crate::equal_steps::{parts, step_count};
         #[cfg(feature = "std")]
         pub use crate::lanes::equations::Equations;
-        pub use crate::rattle::reaction::Reaction;
         pub use crate::runge_kutta::field::{Field, InVectors};
         #[cfg(feature = "std")]
         pub use crate::runge_kutta::in_lanes::{Fate, RungeKutta8InLanes};
@@ -154,7 +156,7 @@ impl core::error::Error for Failure {}
 /// What an integration cost. All that it asked of the equations is counted: for accepted and rejected steps, for outputs
 /// and events between them, at the start, and for the trial of a method that the automatic choice takes or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,

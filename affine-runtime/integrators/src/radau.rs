@@ -8,16 +8,16 @@ mod work;
 pub use coefficients::Tableau;
 pub use solve::{Differences, Exact, Jacobian};
 
-use core::fmt;
-
+use super::drive::{Adaptive, AdaptiveMethod, Attempt, Control};
 use super::error_norm::{ErrorNorm, GROUPS};
 use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
 use super::newton::Newton;
-use super::step_size::{Controller, first_step, next_time, shortest};
+use super::step_size::{Controller, first_step};
 use super::tape::Tape;
-use super::{Failure, Statistics, sound};
-use affine_core::__private::numerics::norm;
+use super::vectors::Baseline;
+use super::{Failure, sound};
+use affine_core::__private::numerics::{Vectors, norm};
 use affine_core::model::{Group, Quantity, StateVector};
 use coefficients::{MODES, MOST_STAGES};
 use solve::{Field, Problem, Stages, plus};
@@ -35,8 +35,11 @@ use work::Work;
 /// Jacobian, and held in the [`ErrorNorm`], where the floor of a momentum is at most the largest that the body has had.
 /// `work`, which nothing depends on, is integrated along the collocation polynomial at nodes that are not those of the
 /// stages: energy and work close only where the motion is right. Nothing allocates; the factors take 64 KiB.
+pub type Radau<S, F, J, C = Flat> = Adaptive<RadauSteps<S, F, J, C>>;
+
+/// Steps of Radau IIA collocation.
 #[derive(Clone)]
-pub struct Radau<S, F, J, C = Flat> {
+pub struct RadauSteps<S, F, J, C> {
     f: F,
     jacobian: J,
     coordinates: C,
@@ -45,26 +48,23 @@ pub struct Radau<S, F, J, C = Flat> {
     error_norm: ErrorNorm,
     /// The largest that each group has been.
     largest: [f64; GROUPS],
-    tolerance: f64,
-    controller: Controller,
     t: f64,
     begin: Sum<S>,
     end: Sum<S>,
     /// The time derivative of the state reached.
     rate: S,
+    /// The state reached in the coordinates around it, and its slope.
+    origin: S,
+    slope: S,
     /// Of the last step, and its length, zero before the first.
     stages: Stages<S>,
     h: f64,
-    length: f64,
-    t_end: f64,
     /// The next step has none before it that its error could be judged by.
     unjudged: bool,
     work: Option<Work>,
-    failure: Option<Failure>,
-    statistics: Statistics,
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>> Radau<S, F, J> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>> Adaptive<RadauSteps<S, F, J, Flat>> {
     /// The integration at its start; `jacobian` is [`Exact`] or [`Differences`]. Two evaluations, and one for each
     /// component of a momentum.
     ///
@@ -84,7 +84,9 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>> Radau<S, F, J> {
     }
 }
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> Radau<S, F, J, C> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>>
+    Adaptive<RadauSteps<S, F, J, C>>
+{
     /// The integration at its start, in other coordinates: on a group, in the chart around the beginning of each step.
     ///
     /// # Errors
@@ -115,7 +117,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             false => first_step(&f, &error_norm, at_start, t_end - t0, (tolerance, order)),
         };
         let begin = Sum::of(y0);
-        let mut integration = Self {
+        let mut method = RadauSteps {
             f,
             jacobian,
             coordinates,
@@ -123,104 +125,125 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             newton: Newton::with_real_mode(tableau.modes, independent(groups)),
             error_norm,
             largest: [0.0; GROUPS],
-            tolerance,
-            controller: Controller::of(order, 1.0),
             t: t0,
             begin,
             end: begin,
             rate,
+            origin: y0,
+            slope: rate,
             stages: [S::zeros(); MOST_STAGES],
             h: 0.0,
-            length,
-            t_end,
             unjudged: true,
             work: Work::of(groups, tableau.stages()),
-            failure: None,
-            statistics: Statistics { evaluations: 2 + probes, ..Statistics::default() },
         };
-        integration.note_sizes();
-        Ok(integration)
+        method.note_sizes();
+        let controller = Controller::of(order, 1.0);
+        Ok(Self { method, control: Control::new((t_end, tolerance), controller, length, 2 + probes) })
+    }
+}
+
+/// A step that is solved.
+pub struct Solved<S> {
+    stages: Stages<S>,
+    end: Sum<S>,
+    rate: S,
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> AdaptiveMethod
+    for RadauSteps<S, F, J, C>
+{
+    type State = S;
+    const NAME: &'static str = "Radau";
+
+    fn t(&self) -> f64 {
+        self.t
     }
 
-    /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
-    ///
-    /// # Errors
-    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        let stepped = self.accepted();
-        self.failure = stepped.err();
-        stepped
+    fn y(&self) -> &S {
+        &self.end.value
     }
 
-    fn accepted(&mut self) -> Result<(), Failure> {
-        let base = self.end;
-        let origin = self.coordinates.origin(&base).value;
-        let slope = self.coordinates.velocity(&base.value, &origin, &self.rate);
-        let field = Field { f: &self.f, coordinates: self.coordinates, base: &base };
-        let (t, jacobian) = (self.t, &self.jacobian);
+    fn step(&mut self, control: &mut Control) -> Result<(), Failure> {
+        control.by_error(self, Baseline)
+    }
+
+    /// By the collocation polynomial; without evaluations, but for the work up to there.
+    fn at(&mut self, t: f64, control: &mut Control) -> Result<S, Failure> {
+        Ok(self.between(t, control))
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.t);
+        tape.sum(&mut self.begin);
+        tape.sum(&mut self.end);
+        tape.state(&mut self.rate);
+        self.stages.iter_mut().for_each(|stage| tape.state(stage));
+        tape.number(&mut self.h);
+        self.largest.iter_mut().for_each(|size| tape.number(size));
+        tape.flag(&mut self.unjudged);
+    }
+
+    fn worth(&self) -> u64 {
+        self.jacobian.worth()
+    }
+}
+
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> Attempt
+    for RadauSteps<S, F, J, C>
+{
+    type Trial = Solved<S>;
+
+    fn begin(&mut self, control: &mut Control) {
+        self.origin = self.coordinates.origin(&self.end).value;
+        self.slope = self.coordinates.velocity(&self.end.value, &self.origin, &self.rate);
+        let field = Field { f: &self.f, coordinates: self.coordinates, base: &self.end };
+        let (start, jacobian) = ((self.t, &self.origin, &self.slope), &self.jacobian);
         let mut spent = 0;
         self.newton.learn(|columns| {
-            spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), (t, &origin, &slope), columns);
+            spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), start, columns);
         });
-        self.statistics.evaluations += spent;
-        let (mut rejected, mut not_solved) = (false, None);
-        loop {
-            let to = next_time(self.t, self.length, self.t_end);
-            let h = to - self.t;
-            let is_lost = self.length <= shortest(self.t, self.t_end);
-            if h == 0.0 || is_lost && rejected {
-                return Err(not_solved.unwrap_or(Failure::StepUnderflow));
-            }
-            let Some(stages) = self.solved(&base, &origin, h) else {
-                // A step a quarter as long, as in section IV.8 there.
-                self.statistics.rejected += 1;
-                rejected = true;
-                self.unjudged = true;
-                self.length = 0.25 * h.abs();
-                not_solved = Some(Failure::NoSolution { residual: f64::NAN });
-                continue;
-            };
-            let end = self.coordinates.state(&base, &plus(&origin, &stages[self.tableau.stages() - 1]));
-            let error = self.error((&base, &origin, &slope), &stages, &end.value, h);
-            let rate = if error <= 1.0 { self.rate_at(to, &end.value) } else { None };
-            let Some(rate) = rate else {
-                self.statistics.rejected += 1;
-                rejected = true;
-                self.unjudged = true;
-                self.length = h.abs() * self.controller.reject(error);
-                not_solved = (!error.is_finite()).then_some(Failure::NotFinite);
-                continue;
-            };
-            self.statistics.steps += 1;
-            self.unjudged = false;
-            self.length = h.abs() * self.controller.accept(error);
-            (self.begin, self.end, self.rate) = (base, end, rate);
-            (self.stages, self.h, self.t) = (stages, h, to);
-            self.add_work();
-            self.note_sizes();
-            return Ok(());
+        control.statistics.evaluations += spent;
+    }
+
+    fn attempt(
+        &mut self,
+        _vectors: impl Vectors,
+        to: f64,
+        control: &mut Control,
+    ) -> Option<(Solved<S>, f64)> {
+        let h = to - self.t;
+        let is_unjudged = core::mem::replace(&mut self.unjudged, true);
+        let stages = self.solved(h, control)?;
+        let last = &stages[self.tableau.stages() - 1];
+        let end = self.coordinates.state(&self.end, &plus(&self.origin, last));
+        let mut error = self.error(&stages, &end.value, (h, is_unjudged), control);
+        let mut rate = self.rate;
+        if error <= 1.0 {
+            control.statistics.evaluations += 1;
+            rate = (self.f)(to, &end.value);
+            error = if is_finite(&rate) { error } else { f64::NAN };
         }
+        Some((Solved { stages, end, rate }, error))
     }
 
-    fn rate_at(&mut self, t: f64, state: &S) -> Option<S> {
-        self.statistics.evaluations += 1;
-        let rate = (self.f)(t, state);
-        is_finite(&rate).then_some(rate)
+    fn accept(&mut self, Solved { stages, end, rate }: Solved<S>, to: f64, control: &mut Control) {
+        self.unjudged = false;
+        (self.stages, self.h, self.t) = (stages, to - self.t, to);
+        (self.begin, self.end, self.rate) = (self.end, end, rate);
+        self.add_work(control);
+        self.note_sizes();
     }
+}
 
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> RadauSteps<S, F, J, C> {
     /// The stages of a step of length `h`: from the polynomial of the last step, and where that leads nowhere, from rest.
-    fn solved(&mut self, base: &Sum<S>, origin: &S, h: f64) -> Option<Stages<S>> {
+    fn solved(&mut self, h: f64, control: &mut Control) -> Option<Stages<S>> {
         if !self.newton.prepare(h) {
             return None;
         }
         let zero = [S::zeros(); MOST_STAGES];
         let guess = self.continued(h);
+        let (base, origin) = (&self.end, &self.origin);
         let field = Field { f: &self.f, coordinates: self.coordinates, base };
         let mut problem = Problem {
             field: &field,
@@ -228,7 +251,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             tableau: self.tableau,
             from: (self.t, origin),
             h,
-            tolerance: self.tolerance,
+            tolerance: control.tolerance,
             evaluations: 0,
         };
         let (norm_of, bounds) = (&self.error_norm, &self.largest);
@@ -239,18 +262,19 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         };
         let solved =
             guess.and_then(|guess| problem.solve(guess, &size)).or_else(|| problem.solve(zero, &size));
-        self.statistics.evaluations += problem.evaluations;
+        control.statistics.evaluations += problem.evaluations;
         solved
     }
 
-    /// Estimated error of a step relative to the tolerance.
+    /// Estimated error of a step of length `h` relative to the tolerance.
     fn error(
-        &mut self,
-        (base, origin, slope): (&Sum<S>, &S, &S),
+        &self,
         stages: &Stages<S>,
         end: &S,
-        h: f64,
+        (h, is_unjudged): (f64, bool),
+        control: &mut Control,
     ) -> f64 {
+        let (base, tolerance) = (&self.end, control.tolerance);
         let gamma = self.tableau.modes[0].eigenvalue.0;
         let embedded = |slope: &S| {
             let mut sum = S::zeros();
@@ -265,26 +289,26 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             let change = self.coordinates.change(base, error);
             let value = |range: core::ops::Range<usize>| norm(&change.as_ref()[range]);
             let (before, after) = (base.value.as_ref(), end.as_ref());
-            self.error_norm.largest_within(h.abs(), &self.largest, before, after, value) / self.tolerance
+            self.error_norm.largest_within(h.abs(), &self.largest, before, after, value) / tolerance
         };
-        let error = embedded(slope);
+        let error = embedded(&self.slope);
         let size = relative(&error);
-        if size <= 1.0 || !self.unjudged {
+        if size <= 1.0 || !is_unjudged {
             return size;
         }
         // What dies out at once is no error: filtered once more where it could still be there.
         let field = Field { f: &self.f, coordinates: self.coordinates, base };
-        let again = relative(&embedded(&field.slope(self.t, &plus(origin, &error))));
-        self.statistics.evaluations += 1;
+        let again = relative(&embedded(&field.slope(self.t, &plus(&self.origin, &error))));
+        control.statistics.evaluations += 1;
         again
     }
 
     /// Puts the work along the collocation polynomial in the place of that of the stages.
-    fn add_work(&mut self) {
+    fn add_work(&mut self, control: &mut Control) {
         let Some(work) = self.work else { return };
         let from = self.t - self.h;
         let done = work.along(from, self.h, |t| (self.f)(t, &self.inside((t - from) / self.h)));
-        self.statistics.evaluations += work.evaluations();
+        control.statistics.evaluations += work.evaluations();
         self.end.value.as_mut()[work.place] = self.begin.value.as_ref()[work.place] + done;
     }
 
@@ -296,53 +320,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             start += group.len;
         }
     }
-
-    /// Goes on to another end of the interval.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) {
-        self.t_end = t_end;
-    }
-
-    /// Everything that the next steps depend on, of an integration between two steps.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.number(&mut self.t);
-        tape.sum(&mut self.begin);
-        tape.sum(&mut self.end);
-        tape.state(&mut self.rate);
-        self.stages.iter_mut().for_each(|stage| tape.state(stage));
-        tape.number(&mut self.h);
-        tape.number(&mut self.length);
-        self.largest.iter_mut().for_each(|size| tape.number(size));
-        tape.flag(&mut self.unjudged);
-        self.controller.exchange(tape);
-        tape.statistics(&mut self.statistics);
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.t
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.end.value
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.t == self.t_end
-    }
-
-    /// Cost so far.
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        let evaluations = self.statistics.evaluations * self.jacobian.worth();
-        Statistics { evaluations, ..self.statistics }
-    }
 }
 
 /// Components before those that nothing depends on: `1/D`, which is computed anew from the placement, and the work.
@@ -350,19 +327,4 @@ fn independent(groups: &[Group]) -> usize {
     let is_integral = |group: &Group| matches!(group.quantity, Quantity::InverseDilatation | Quantity::Work);
     let last = groups.iter().rposition(|group| !is_integral(group)).map_or(0, |last| last + 1);
     groups[..last].iter().map(|group| group.len).sum()
-}
-
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> fmt::Debug
-    for Radau<S, F, J, C>
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Radau")
-            .field("stages", &self.tableau.stages())
-            .field("t", &self.t)
-            .field("y", &self.end.value)
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("statistics", &self.statistics())
-            .finish_non_exhaustive()
-    }
 }

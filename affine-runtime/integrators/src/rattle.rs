@@ -2,17 +2,17 @@
 
 mod constraint;
 mod layout;
-pub(crate) mod reaction;
 
 pub use crate::composition::Composition;
 
-use core::fmt;
+use core::marker::PhantomData;
 
+use super::Failure;
+use super::drive::{Equal, EqualStepMethod};
 use super::equal_steps::{EqualSteps, Times};
 use super::finite::is_finite;
 use super::lie::{Sum, adjugate};
 use super::tape::Tape;
-use super::{Failure, Statistics};
 use affine_core::model::{Group, StateVector};
 use constraint::{Motion, multiplier};
 use layout::Layout;
@@ -42,26 +42,29 @@ const START: f64 = 1e-10;
 /// or without, and its time derivative is `T'(Pi)` and the force. A multiple of `adj(phi)` in the force is immaterial.
 /// One evaluation for each step of RATTLE; at the start two and one for each component of the momenta, from which the
 /// matrix of `T'` is read.
+pub type Rattle<const N: usize, S, F> = Equal<RattleSteps<N, S, F>>;
+
+/// Steps of RATTLE.
 #[derive(Clone)]
-pub struct Rattle<const N: usize, S, F> {
+pub struct RattleSteps<const N: usize, S, F> {
     f: F,
     layout: Layout<N>,
     composition: &'static Composition,
-    steps: EqualSteps<Point<S>>,
     evaluations: u64,
     residual: f64,
+    state: PhantomData<S>,
 }
 
 /// A state with the forces there.
 #[derive(Clone, Copy)]
-struct Point<S> {
+pub struct Point<S> {
     state: Sum<S>,
     rates: S,
     /// The last multiplier over its step: where the next one is looked for.
     multiplier: f64,
 }
 
-impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<RattleSteps<N, S, F>> {
     /// The integration at its start; `groups` lay out the state.
     ///
     /// # Errors
@@ -95,104 +98,58 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
             return Err(Failure::NotFinite);
         }
         let start = Point { state: Sum::of(state), rates, multiplier: 0.0 };
-        Ok(Self {
-            f,
-            evaluations: layout.evaluations() + 1,
-            layout,
-            composition,
-            steps: EqualSteps::at(times, start),
-            residual: 0.0,
-        })
+        let evaluations = layout.evaluations() + 1;
+        let method = RattleSteps { f, layout, composition, evaluations, residual: 0.0, state: PhantomData };
+        Ok(Self { method, steps: EqualSteps::at(times, start) })
+    }
+}
+
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> EqualStepMethod for RattleSteps<N, S, F> {
+    type State = S;
+    type Point = Point<S>;
+    const NAME: &'static str = "Rattle";
+
+    fn state(point: &Point<S>) -> &S {
+        &point.state.value
     }
 
-    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
-    ///
     /// # Errors
-    /// [`Failure::NoSolution`], with what is left of `det phi - 1`, or [`Failure::NotFinite`], now and ever after; the
-    /// state stays that of the last step.
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
-        let end = self.composed(t, begin, h);
-        self.steps.take(end)
-    }
-
-    /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves
-    /// the steps as they are. The state reached where no step has been taken.
-    ///
-    /// # Errors
-    /// As [`advance`](Self::advance), but the integration can go on.
-    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        match self.steps.again_to(t) {
-            None => Ok(*self.y()),
-            Some((from, begin, h)) => self.composed(from, begin, h).map(|between| between.state.value),
-        }
-    }
-
-    /// Goes on to another end of the interval.
-    ///
-    /// # Errors
-    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
-        self.steps.aim(t_end)
-    }
-
-    /// Everything that the next steps depend on.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        self.steps.exchange(tape, |tape, end| {
-            tape.sum(&mut end.state);
-            tape.state(&mut end.rates);
-            tape.number(&mut end.multiplier);
-        });
-        tape.number(&mut self.residual);
-        tape.bits(&mut self.evaluations);
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.steps.t()
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.steps.end().state.value
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.steps.is_finished()
-    }
-
-    /// Cost so far, with that of [`at`](Self::at). No step is rejected.
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        Statistics { steps: self.steps.taken(), evaluations: self.evaluations, ..Statistics::default() }
-    }
-
-    /// Largest `|det phi - 1|` that the iteration left, relative to the products in the determinant.
-    #[must_use]
-    pub fn residual(&self) -> f64 {
-        self.residual
-    }
-
-    /// One step of the composition.
-    fn composed(&mut self, t: f64, begin: Point<S>, h: f64) -> Result<Point<S>, Failure> {
+    /// [`Failure::NoSolution`] with what is left of `det phi - 1`.
+    fn step(&mut self, (t, begin): (f64, Point<S>), h: f64, _last: Option<f64>) -> Result<Point<S>, Failure> {
         let mut point = begin;
         let mut part = 0.0;
         for weight in self.composition.weights() {
             let from = t + part * h;
             part += weight;
-            point = self.step(from + weight * h, point, weight * h)?;
+            point = self.one(from + weight * h, point, weight * h)?;
         }
         Ok(point)
     }
 
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.residual);
+        tape.bits(&mut self.evaluations);
+    }
+
+    fn exchange_point(tape: &mut impl Tape, point: &mut Point<S>) {
+        tape.sum(&mut point.state);
+        tape.state(&mut point.rates);
+        tape.number(&mut point.multiplier);
+    }
+
+    /// `|det phi - 1|` that the iteration left, relative to the products in the determinant.
+    fn residual(&self) -> Option<f64> {
+        Some(self.residual)
+    }
+}
+
+impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> RattleSteps<N, S, F> {
     /// One step of RATTLE, which ends at the time `end`.
-    fn step(&mut self, end: f64, begin: Point<S>, h: f64) -> Result<Point<S>, Failure> {
+    fn one(&mut self, end: f64, begin: Point<S>, h: f64) -> Result<Point<S>, Failure> {
         let normal = self.normal(&begin.state.value);
         let mut state = begin.state.plus(&self.layout.kick(&begin.rates, 0.5 * h));
         let free = self.layout.drift(&state.value, h);
@@ -225,17 +182,5 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Rattle<N, S, F> {
     /// The momentum `adj(phi)`, along which the constraint acts.
     fn normal(&self, state: &S) -> S {
         self.layout.momentum(&adjugate(&self.layout.placement(state)))
-    }
-}
-
-impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> fmt::Debug for Rattle<N, S, F> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Rattle")
-            .field("order", &self.composition.order())
-            .field("t", &self.t())
-            .field("y", self.y())
-            .field("steps", self.steps.times())
-            .field("statistics", &self.statistics())
-            .finish_non_exhaustive()
     }
 }

@@ -18,16 +18,15 @@ use judged::Judged;
 pub use pair::{DormandPrince54, DormandPrince853, Step};
 pub use step::{Dense, OneStep, Pair};
 
-use core::fmt;
-
+use super::Failure;
+use super::drive::{Adaptive, AdaptiveMethod, Attempt, Control};
 use super::error_norm::ErrorNorm;
 use super::finite::is_finite;
 use super::lie::{Coordinates, Flat, Sum};
-use super::step_size::{Controller, next_time, shortest};
+use super::step_size::Controller;
 use super::tape::Tape;
 use super::vectors::Baseline;
 use super::widest::{Work, roomiest, widest};
-use super::{Failure, Statistics};
 use affine_core::__private::Vectors;
 use affine_core::model::{Group, StateVector};
 use affine_core::system::Packing;
@@ -57,13 +56,14 @@ pub type RungeKutta5<S, F, C = Flat, L = S> = RungeKutta<DormandPrince54, S, F, 
 /// tolerance bounds the error of each step; what accumulates depends on the problem.
 ///
 /// Cost: that of the steps; at the start 2 evaluations, and one for each component of a momentum.
+pub type RungeKutta<P, S, F, C = Flat, L = S> = Adaptive<RungeKuttaSteps<P, S, F, C, L>>;
+
+/// The steps of an embedded explicit method.
 #[derive(Clone)]
-pub struct RungeKutta<P, S, F, C = Flat, L = S> {
+pub struct RungeKuttaSteps<P, S, F, C, L> {
     field: F,
     coordinates: C,
     error_norm: ErrorNorm,
-    tolerance: f64,
-    controller: Controller,
     /// In the coordinates around `begin`.
     step: OneStep<P, L>,
     begin: Sum<S>,
@@ -73,10 +73,8 @@ pub struct RungeKutta<P, S, F, C = Flat, L = S> {
     rate: S,
     /// That of the state at the end of an attempted step.
     trial_rate: S,
-    length: f64,
-    t_end: f64,
-    failure: Option<Failure>,
-    statistics: Statistics,
+    /// The dense output of the last step, which is formed once for all times in it.
+    dense: Option<Dense<S, C>>,
 }
 
 impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S> RungeKutta<P, S, F> {
@@ -101,6 +99,7 @@ impl<P: Pair, S: StateVector<f64>, K, R: Packing<S, K>> RungeKutta<P, S, InVecto
     ///
     /// # Errors
     /// As [`new`](RungeKutta::new).
+    #[inline(always)]
     pub fn in_vectors(
         field: InVectors<R, K>,
         groups: &'static [Group],
@@ -118,6 +117,7 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
     ///
     /// # Errors
     /// As [`new`](RungeKutta::new).
+    #[inline(always)]
     pub fn within(
         coordinates: C,
         f: F,
@@ -133,6 +133,7 @@ impl<P: Pair, S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> Runge
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>>
     RungeKutta<P, S, F, C, L>
 {
+    #[inline(always)]
     fn begun(
         coordinates: C,
         field: F,
@@ -144,155 +145,44 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         let f = |t: f64, y: &S| called(|| field.rate(t, y));
         let (start, evaluations) = Start::of::<P>(&f, groups, (t0, &y0), t_end, tolerance)?;
         let Start { slope, error_norm, length } = start;
-        let statistics = Statistics { evaluations, ..Statistics::default() };
         let controller = Controller::of(P::ERROR_ORDER, P::MARGIN);
         let begin = Sum::of(y0);
         let origin = coordinates.origin(&begin).value;
         let velocity = coordinates.velocity(&y0, &origin, &slope);
-        let step = OneStep::at(t0, field.stored(&origin), field.stored(&velocity));
+        let [origin, velocity] = [&origin, &velocity].map(|state| field.stored(state));
+        let control = Control::new((t_end, tolerance), controller, length, evaluations);
+        // In place: it is some kilobytes.
         Ok(Self {
-            field,
-            coordinates,
-            error_norm,
-            tolerance,
-            controller,
-            step,
-            begin,
-            end: begin,
-            rate: slope,
-            trial_rate: slope,
-            length,
-            t_end,
-            failure: None,
-            statistics,
+            method: RungeKuttaSteps {
+                field,
+                coordinates,
+                error_norm,
+                step: OneStep::at(t0, origin, velocity),
+                begin,
+                end: begin,
+                rate: slope,
+                trial_rate: slope,
+                dense: None,
+            },
+            control,
         })
-    }
-
-    /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
-    ///
-    /// # Errors
-    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
-    // Not optimised a second time as a part of its only caller.
-    #[inline(never)]
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        if const { P::SUMS_ARE_LONG && F::IS_IN_VECTORS } {
-            roomiest(Advance(self))
-        } else {
-            widest(Advance(self))
-        }
-    }
-
-    /// One accepted step, all of it on the vectors of a processor: what is done between two steps is as long as an
-    /// evaluation or two.
-    #[inline(always)]
-    fn accepted(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.begin_next();
-        loop {
-            let end = next_time(self.step.time(), self.length, self.t_end);
-            if end == self.step.time() {
-                self.failure = Some(Failure::StepUnderflow);
-                return Err(Failure::StepUnderflow);
-            }
-            self.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
-            let (reached, mut error) = self.attempt(vectors, end);
-            if error <= 1.0 {
-                if !P::NEEDS_END {
-                    self.statistics.evaluations += 1;
-                }
-                self.rate = self.trial_rate;
-                let slope = *self.step.end_slope();
-                self.step.accept_with(slope);
-                if is_finite(&slope) {
-                    self.end = reached;
-                    self.statistics.steps += 1;
-                    self.length = self.step.length().abs() * self.controller.accept(error);
-                    return Ok(());
-                }
-                error = f64::NAN;
-            }
-            self.statistics.rejected += 1;
-            self.length = self.step.length().abs() * self.controller.reject(error);
-            if self.length <= shortest(self.step.time(), self.t_end) {
-                self.step.withdraw();
-                let failure = if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite };
-                self.failure = Some(failure);
-                return Err(failure);
-            }
-        }
     }
 
     /// Dense output over the last accepted step: [`Pair::DENSE_EVALUATIONS`].
     pub fn dense(&mut self) -> Dense<S, C> {
-        self.statistics.evaluations += P::DENSE_EVALUATIONS;
-        let dense = self.step.dense_in(&self.field.stages(Baseline, self.coordinates, &self.begin));
-        dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
+        self.method.dense(&mut self.control)
     }
+}
 
-    /// Goes on to another end of the interval.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) {
-        self.t_end = t_end;
-    }
-
-    /// Everything that the next steps depend on, of an integration between two steps.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        let mut t = self.t();
-        tape.number(&mut t);
-        tape.sum(&mut self.end);
-        tape.state(&mut self.rate);
-        tape.number(&mut self.length);
-        self.controller.exchange(tape);
-        tape.statistics(&mut self.statistics);
-        let origin = self.coordinates.origin(&self.end).value;
-        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
-        self.step = OneStep::at(t, self.field.stored(&origin), self.field.stored(&velocity));
-        self.begin = self.end;
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.step.end_time()
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.end.value
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.t() == self.t_end
-    }
-
-    /// Cost so far.
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        self.statistics
-    }
-
-    /// Computes a step to the time `end`: the state there, and its error. Where the step is good, the slope there too.
-    #[inline(always)]
-    fn attempt(&mut self, vectors: impl Vectors, end: f64) -> (Sum<S>, f64) {
-        self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
-        let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
-        if P::NEEDS_END {
-            self.slope_at(vectors, end, &reached.value);
-        }
-        let error = self.error(vectors, &reached.value);
-        if !P::NEEDS_END && error <= 1.0 {
-            self.slope_at(vectors, end, &reached.value);
-        }
-        (reached, error)
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>>
+    RungeKuttaSteps<P, S, F, C, L>
+{
+    fn dense(&mut self, control: &mut Control) -> Dense<S, C> {
+        *self.dense.get_or_insert_with(|| {
+            control.statistics.evaluations += P::DENSE_EVALUATIONS;
+            let dense = self.step.dense_in(&self.field.stages(Baseline, self.coordinates, &self.begin));
+            dense.read(|stored| self.field.read(stored)).around(self.coordinates, self.begin, self.end.value)
+        })
     }
 
     /// The slope at the end of the attempted step.
@@ -303,18 +193,9 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         self.step.set_end(slope);
     }
 
-    /// Turns to the next step, in coordinates around the state reached.
-    #[inline(always)]
-    fn begin_next(&mut self) {
-        let origin = self.coordinates.origin(&self.end).value;
-        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
-        self.begin = self.end;
-        self.step.begin_next_at(self.field.stored(&origin), self.field.stored(&velocity));
-    }
-
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
     #[inline(always)]
-    fn error(&self, vectors: impl Vectors, reached: &S) -> f64 {
+    fn error(&self, vectors: impl Vectors, reached: &S, tolerance: f64) -> f64 {
         let stages = self.field.stages(vectors, self.coordinates, &self.begin);
         let (first, second) = self.step.error_slopes(&stages);
         // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
@@ -326,24 +207,94 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
             states: [self.begin.value.as_ref(), reached.as_ref()],
             slopes: [first.as_ref(), second.as_ref()],
         });
-        self.step.length().abs() / self.tolerance * relative
+        self.step.length().abs() / tolerance * relative
     }
 }
 
-impl<P: Pair, S: StateVector<f64>, F, C, L: StateVector<f64>> fmt::Debug for RungeKutta<P, S, F, C, L> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct(P::NAME)
-            .field("t", &self.step.end_time())
-            .field("y", &self.end.value)
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> AdaptiveMethod
+    for RungeKuttaSteps<P, S, F, C, L>
+{
+    type State = S;
+    const NAME: &'static str = P::NAME;
+
+    fn t(&self) -> f64 {
+        self.step.end_time()
+    }
+
+    fn y(&self) -> &S {
+        &self.end.value
+    }
+
+    fn step(&mut self, control: &mut Control) -> Result<(), Failure> {
+        if const { P::SUMS_ARE_LONG && F::IS_IN_VECTORS } {
+            roomiest(Advance(self, control))
+        } else {
+            widest(Advance(self, control))
+        }
+    }
+
+    fn at(&mut self, t: f64, control: &mut Control) -> Result<S, Failure> {
+        if t == self.t() {
+            return Ok(self.end.value);
+        }
+        Ok(self.dense(control).at(t))
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        let mut t = self.t();
+        tape.number(&mut t);
+        tape.sum(&mut self.end);
+        tape.state(&mut self.rate);
+        let origin = self.coordinates.origin(&self.end).value;
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        self.step = OneStep::at(t, self.field.stored(&origin), self.field.stored(&velocity));
+        (self.begin, self.dense) = (self.end, None);
     }
 }
 
-/// An accepted step of an integration.
-struct Advance<'a, P, S, F, C, L>(&'a mut RungeKutta<P, S, F, C, L>);
+impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Attempt
+    for RungeKuttaSteps<P, S, F, C, L>
+{
+    type Trial = Sum<S>;
+
+    /// Turns to the next step, in coordinates around the state reached.
+    #[inline(always)]
+    fn begin(&mut self, _control: &mut Control) {
+        let origin = self.coordinates.origin(&self.end).value;
+        let velocity = self.coordinates.velocity(&self.end.value, &origin, &self.rate);
+        (self.begin, self.dense) = (self.end, None);
+        self.step.begin_next_at(self.field.stored(&origin), self.field.stored(&velocity));
+    }
+
+    /// Where the step is good, the slope at its end is computed too.
+    #[inline(always)]
+    fn attempt(&mut self, vectors: impl Vectors, end: f64, control: &mut Control) -> Option<(Sum<S>, f64)> {
+        control.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
+        self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
+        let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
+        if P::NEEDS_END {
+            self.slope_at(vectors, end, &reached.value);
+        }
+        let error = self.error(vectors, &reached.value, control.tolerance);
+        if !P::NEEDS_END && error <= 1.0 {
+            control.statistics.evaluations += 1;
+            self.slope_at(vectors, end, &reached.value);
+        }
+        let leads_nowhere = error <= 1.0 && !is_finite(self.step.end_slope());
+        Some((reached, if leads_nowhere { f64::NAN } else { error }))
+    }
+
+    #[inline(always)]
+    fn accept(&mut self, reached: Sum<S>, _end: f64, _control: &mut Control) {
+        self.rate = self.trial_rate;
+        self.step.keep();
+        self.end = reached;
+    }
+}
+
+/// An accepted step of an integration, all of it on the vectors of a processor: what is done between two steps is as long as
+/// an evaluation or two.
+struct Advance<'a, P, S, F, C, L>(&'a mut RungeKuttaSteps<P, S, F, C, L>, &'a mut Control);
 
 impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: StateVector<f64>> Work
     for Advance<'_, P, S, F, C, L>
@@ -351,6 +302,6 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     type Output = Result<(), Failure>;
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.0.accepted(vectors)
+        self.1.by_error(self.0, vectors)
     }
 }

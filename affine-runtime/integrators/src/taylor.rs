@@ -4,16 +4,15 @@ pub(crate) mod lanes;
 
 pub use affine_core::system::Series;
 
-use core::fmt;
-
+use super::drive::{Adaptive, AdaptiveMethod, Control};
 use super::error_norm::ErrorNorm;
 use super::finite::is_finite;
 use super::roughly::exp;
-use super::step_size::{first_step, shortest};
+use super::step_size::{Controller, first_step, shortest};
 use super::tape::Tape;
 use super::vectors::Baseline;
 use super::widest::{Work, roomiest, widest};
-use super::{Failure, Statistics, sound};
+use super::{Failure, sound};
 use affine_core::__private::numerics::{
     HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, sum_of_squares,
 };
@@ -34,28 +33,27 @@ use affine_core::model::{Group, StateVector};
 ///
 /// The polynomial is the dense output. Steps are summed with compensation.
 ///
-/// Cost: one set of coefficients per step, which [`Statistics`] count as a series; at the start one evaluation for each
+/// Cost: one set of coefficients per step, which [`Statistics`](crate::Statistics) count as a series; at the start one evaluation for each
 /// component of a momentum and one more.
+pub type Taylor<S, C, R> = Adaptive<TaylorSteps<S, C, R>>;
+
+/// Steps by Taylor polynomials.
 #[derive(Clone)]
-pub struct Taylor<S, C, R: Series<S, C>> {
+pub struct TaylorSteps<S, C, R: Series<S, C>> {
     series: R,
     constants: C,
     error_norm: ErrorNorm,
-    tolerance: f64,
     order: usize,
     begin: f64,
     t: f64,
     y: S,
     /// What rounding left out of `y`.
     carry: S,
-    t_end: f64,
     /// `y_k unit^k`
     coefficients: [S; HIGHEST_ORDER + 1],
     rows: Rows<[R::Row; HIGHEST_ORDER]>,
     /// A power of two.
     unit: f64,
-    failure: Option<Failure>,
-    statistics: Statistics,
 }
 
 /// Rows that begin with a line of a cache: vectors that lie across two take twice the time to load.
@@ -85,13 +83,14 @@ pub fn order_for(tolerance: f64) -> usize {
     (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
 }
 
-impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
+impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`]; the order is that of
     /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where `y0` or its slope is not finite; [`Failure::Time`] for an interval and
     /// [`Failure::Tolerance`] for a tolerance that make no sense.
+    #[inline(always)]
     pub fn new(
         (series, constants): (R, C),
         groups: &'static [Group],
@@ -113,59 +112,92 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         };
         let mut coefficients = [S::zeros(); HIGHEST_ORDER + 1];
         coefficients[0] = y0;
+        let order = order.unwrap_or(order_for(tolerance)).clamp(LOWEST_ORDER, HIGHEST_ORDER);
+        // The length of a step follows from its coefficients alone.
+        let controller = Controller::of((order + 1) as f64, 1.0);
+        let control = Control::new((t_end, truncation(tolerance)), controller, 0.0, probes + 1);
+        // In place: it is some kilobytes.
         Ok(Self {
-            error_norm,
-            tolerance: truncation(tolerance),
-            order: order.unwrap_or(order_for(tolerance)).clamp(LOWEST_ORDER, HIGHEST_ORDER),
-            begin: t0,
-            t: t0,
-            y: y0,
-            carry: S::zeros(),
-            t_end,
-            coefficients,
-            rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
-            unit: 1.0,
-            failure: None,
-            statistics: Statistics { evaluations: probes + 1, ..Statistics::default() },
-            series,
-            constants,
+            method: TaylorSteps {
+                error_norm,
+                order,
+                begin: t0,
+                t: t0,
+                y: y0,
+                carry: S::zeros(),
+                coefficients,
+                rows: Rows([R::Row::zeros(); HIGHEST_ORDER]),
+                unit: 1.0,
+                series,
+                constants,
+            },
+            control,
         })
     }
 
-    /// Takes one step; does nothing at `t_end`, which the last step hits exactly.
-    ///
-    /// # Errors
-    /// [`Failure`], now and ever after; the state stays that of the last step.
-    // Not optimised a second time as a part of its only caller.
-    #[inline(never)]
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        roomiest(Advance(self)).inspect_err(|failure| self.failure = Some(*failure))
+    /// The order.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.method.order
+    }
+}
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> AdaptiveMethod for TaylorSteps<S, C, R> {
+    type State = S;
+    const NAME: &'static str = "Taylor";
+
+    fn t(&self) -> f64 {
+        self.t
     }
 
+    fn y(&self) -> &S {
+        &self.y
+    }
+
+    fn step(&mut self, control: &mut Control) -> Result<(), Failure> {
+        roomiest(Advance(self, control))
+    }
+
+    /// By the polynomial of the step.
+    fn at(&mut self, t: f64, _control: &mut Control) -> Result<S, Failure> {
+        if t == self.t {
+            return Ok(self.y);
+        }
+        let mut y = widest(Rise(self, t - self.begin));
+        for (y, begin) in y.as_mut().iter_mut().zip(self.coefficients[0].as_ref()) {
+            *y += begin;
+        }
+        Ok(y)
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.t);
+        tape.state(&mut self.y);
+        tape.state(&mut self.carry);
+        tape.number(&mut self.unit);
+        self.begin = self.t;
+    }
+}
+
+impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     #[inline(always)]
-    fn step(&mut self, vectors: impl Vectors) -> Result<(), Failure> {
+    fn one(&mut self, vectors: impl Vectors, control: &mut Control) -> Result<(), Failure> {
         let mut again = false;
         loop {
-            self.expand(vectors);
-            if again || self.is_in_range() || !self.takes_a_unit() {
+            self.expand(vectors, control);
+            if again || self.is_in_range() || !self.takes_a_unit(control) {
                 break;
             }
             again = true;
         }
-        let length = self.longest();
+        let length = self.longest(control.tolerance);
         if length.is_nan() {
             return Err(Failure::NotFinite);
         }
-        let rest = self.t_end - self.t;
+        let rest = control.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
-        let end = if 1.01 * length >= rest.abs() { self.t_end } else { self.t + length.copysign(rest) };
-        if (end - self.t).abs() <= shortest(self.t, self.t_end) && end != self.t_end {
+        let end = if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
+        if (end - self.t).abs() <= shortest(self.t, control.t_end) && end != control.t_end {
             return Err(Failure::StepUnderflow);
         }
         let rise = self.rise(vectors, end - self.t);
@@ -180,18 +212,18 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
             return Err(Failure::NotFinite);
         }
         (self.begin, self.t, self.y, self.carry) = (self.t, end, y, carry);
-        self.statistics.steps += 1;
+        control.statistics.steps += 1;
         Ok(())
     }
 
     /// The coefficients at the state reached.
     #[inline(always)]
-    fn expand(&mut self, vectors: impl Vectors) {
+    fn expand(&mut self, vectors: impl Vectors, control: &mut Control) {
         self.coefficients[0] = self.y;
         let coefficients = &mut self.coefficients[..=self.order];
         let rows = &mut self.rows.0[..self.order];
         self.series.coefficients_on(vectors, (self.t, self.unit), &self.constants, coefficients, rows);
-        self.statistics = self.statistics.with_series(self.order);
+        control.statistics = control.statistics.with_series(self.order);
     }
 
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
@@ -209,12 +241,12 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
 
     /// Measures time in steps: is that another unit than before?
     #[cold]
-    fn takes_a_unit(&mut self) -> bool {
+    fn takes_a_unit(&mut self, control: &mut Control) -> bool {
         let slope = |t: f64, y: &S| slope(&self.series, &self.constants, t, y);
-        let accuracy = (self.tolerance, self.order as f64);
+        let accuracy = (control.tolerance, self.order as f64);
         let begin = (self.t, &self.y, &slope(self.t, &self.y));
-        let length = first_step(&slope, &self.error_norm, begin, self.t_end - self.t, accuracy);
-        self.statistics.evaluations += 2;
+        let length = first_step(&slope, &self.error_norm, begin, control.t_end - self.t, accuracy);
+        control.statistics.evaluations += 2;
         let before = self.unit;
         if length > 0.0 && length.is_finite() {
             self.unit = libm::ldexp(1.0, libm::frexp(length).1);
@@ -224,10 +256,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
 
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
-    fn longest(&self) -> f64 {
+    fn longest(&self, tolerance: f64) -> f64 {
         let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
-        let longest =
-            self.error_norm.longest(self.coefficients[0].as_ref(), terms, (self.tolerance, self.unit));
+        let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (tolerance, self.unit));
         exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
     }
 
@@ -250,100 +281,27 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Taylor<S, C, R> {
         rise.as_mut().iter_mut().for_each(|rise| *rise *= h);
         rise
     }
-
-    /// Dense output: the state at a time within the last step.
-    #[must_use]
-    pub fn at(&self, t: f64) -> S {
-        if t == self.t {
-            return self.y;
-        }
-        let mut y = widest(Rise(self, t - self.begin));
-        for (y, begin) in y.as_mut().iter_mut().zip(self.coefficients[0].as_ref()) {
-            *y += begin;
-        }
-        y
-    }
-
-    /// Goes on to another end of the interval.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) {
-        self.t_end = t_end;
-    }
-
-    /// Everything that the next steps depend on.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.number(&mut self.t);
-        tape.state(&mut self.y);
-        tape.state(&mut self.carry);
-        tape.number(&mut self.unit);
-        tape.statistics(&mut self.statistics);
-        self.begin = self.t;
-    }
-
-    /// The order.
-    #[must_use]
-    pub fn order(&self) -> usize {
-        self.order
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.t
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.y
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.t == self.t_end
-    }
-
-    /// Cost so far.
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        self.statistics
-    }
 }
 
 /// A step of an integration.
-struct Advance<'a, S, C, R: Series<S, C>>(&'a mut Taylor<S, C, R>);
+struct Advance<'a, S, C, R: Series<S, C>>(&'a mut TaylorSteps<S, C, R>, &'a mut Control);
 
 impl<S: StateVector<f64>, C, R: Series<S, C>> Work for Advance<'_, S, C, R> {
     type Output = Result<(), Failure>;
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> Result<(), Failure> {
-        self.0.step(vectors)
+        self.0.one(vectors, self.1)
     }
 }
 
 /// What the polynomial has risen by after a time.
-struct Rise<'a, S, C, R: Series<S, C>>(&'a Taylor<S, C, R>, f64);
+struct Rise<'a, S, C, R: Series<S, C>>(&'a TaylorSteps<S, C, R>, f64);
 
 impl<S: StateVector<f64>, C, R: Series<S, C>> Work for Rise<'_, S, C, R> {
     type Output = S;
     #[inline(always)]
     fn run(self, vectors: impl Vectors) -> S {
         self.0.rise(vectors, self.1)
-    }
-}
-
-impl<S: StateVector<f64>, C, R: Series<S, C>> fmt::Debug for Taylor<S, C, R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Taylor")
-            .field("order", &self.order)
-            .field("t", &self.t)
-            .field("y", &self.y)
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
     }
 }
 

@@ -3,8 +3,10 @@
 //! On x86-64 the default target has vectors of two doubles and instructions that overwrite an operand. What goes
 //! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. No sum is
 //! reordered. A multiply-add of vectors is rounded once there, and twice by a processor without: that is the one thing by which
-//! machines differ, and [`is_fused`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
+//! machines differ, and [`fused_arithmetic`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
 //! what leaves them to the compiler keeps them in memory.
+
+use core::fmt;
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use super::vectors::Avx2;
@@ -12,14 +14,39 @@ use super::vectors::Baseline;
 use affine_core::__private::Vectors;
 use affine_core::__private::numerics::IS_FUSED;
 
-/// Which of two classes of arithmetic this processor is in, for code that is compiled as this is: whether a product and a sum
-/// are rounded once where steps are in vectors, single bodies and lanes alike.
+/// Where a product and a sum are rounded once, in a fused multiply-add, and not twice.
 ///
-/// Within a class results have the same bits on every machine. Between classes the last bits of a step differ, and what a
-/// motion makes of them. True on x86-64 with AVX2, on AArch64, and where the target promises such an instruction.
+/// Machines of one kind give the same bits. Between kinds the last bits of a step differ, and what a motion makes of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum FusedArithmetic {
+    /// Neither in vectors nor in numbers.
+    Nowhere,
+    /// Where steps are in vectors, single bodies and lanes alike, and not in numbers: on x86-64 with AVX2, which the target
+    /// does not promise.
+    InVectors,
+    /// In numbers as well: on AArch64, and where the target promises such an instruction.
+    Everywhere,
+}
+
+impl fmt::Display for FusedArithmetic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Nowhere => "nowhere",
+            Self::InVectors => "in vectors",
+            Self::Everywhere => "everywhere",
+        })
+    }
+}
+
+/// Where multiply-adds are fused on this processor, by code that is compiled as this is.
 #[must_use]
-pub fn is_fused() -> bool {
-    IS_FUSED || has_fused_vectors()
+pub fn fused_arithmetic() -> FusedArithmetic {
+    match (IS_FUSED, has_fused_vectors()) {
+        (true, _) => FusedArithmetic::Everywhere,
+        (false, true) => FusedArithmetic::InVectors,
+        (false, false) => FusedArithmetic::Nowhere,
+    }
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -133,7 +160,10 @@ mod tests {
     #[test]
     fn a_multiply_add_of_wider_vectors_is_rounded_once() {
         let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
-        let expected = if is_fused() { sums.run(ByTheLibrary) } else { sums.run(Portable) };
+        let expected = match fused_arithmetic() {
+            FusedArithmetic::Nowhere => sums.run(Portable),
+            FusedArithmetic::InVectors | FusedArithmetic::Everywhere => sums.run(ByTheLibrary),
+        };
         assert!(expected.iter().all(|v| v.is_finite() && *v != 0.0), "{expected:?}");
         assert_eq!(widest(sums).map(f64::to_bits), expected.map(f64::to_bits));
         assert_eq!(roomiest(sums).map(f64::to_bits), expected.map(f64::to_bits));
@@ -163,6 +193,10 @@ mod tests {
     fn the_baseline_rounds_as_numbers_do() {
         let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
         assert_eq!(sums.run(Baseline).map(f64::to_bits), sums.run(Portable).map(f64::to_bits));
-        assert_eq!(sums.run(ByTheLibrary) == sums.run(Portable), IS_FUSED, "the two classes differ");
+        assert_eq!(
+            sums.run(ByTheLibrary) == sums.run(Portable),
+            IS_FUSED,
+            "numbers are fused everywhere or nowhere"
+        );
     }
 }

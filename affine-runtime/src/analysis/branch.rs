@@ -6,18 +6,16 @@ use core::fmt::Write;
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{orbit, vector};
-use super::generator::{Generator, confined, symmetries};
-use super::linear::{Column, Dense, absolute_kernel, decomposed, kernel, span};
-use super::newton::{Equations, Solution, solve};
-use super::relative::{Condition, Problem, RelativeEquilibrium, relative_equilibrium};
+use super::field::vector;
+use super::generator::{Generator, confined};
+use super::linear::{Column, Dense, decomposed, kernel};
+use super::newton::{Equations, FLOOR, Solution, solve};
+use super::relative::{Condition, DEGENERATE, Problem, RelativeEquilibrium, free, relative_equilibrium};
 use super::stability::{Stability, StabilityVerdict};
 use crate::error::Error;
 use crate::model::Model;
 use crate::state::Phase;
 
-/// Singular values at a solution that are none, relative to the largest.
-const RANK: f64 = 1e-8;
 /// The same at a branch point, which is known to fewer digits.
 const RANK_AT_BRANCH_POINT: f64 = 1e-5;
 /// By which a parameter is shifted for differences.
@@ -37,10 +35,12 @@ const MOST_POINTS: usize = 2000;
 pub enum Special {
     /// The parameter turns back.
     Fold,
-    /// A direction has no stiffness in the frame that moves: another branch begins.
+    /// A direction has no stiffness in the frame that moves, or with friction an eigenvalue is zero: another branch begins.
     Bifurcation,
     /// Two frequencies meet and leave as growth: a Hamiltonian Hopf bifurcation.
     Collision,
+    /// With friction: an oscillation that fell begins to grow, or the other way round.
+    Hopf,
 }
 
 /// A point of a branch.
@@ -168,10 +168,10 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         let free = self.free(&at.unknowns, RANK_AT_BRANCH_POINT)?;
         let away = &free * kernel(&DMatrix::from_rows(&[at.tangent.tr_mul(&free)]), RANK_AT_BRANCH_POINT);
         if away.is_empty() {
-            return Err(AnalysisError::Singular { directions: 1 });
+            return Err(AnalysisError::Degenerate { kernel: free.ncols(), expected: 2 });
         }
         let direction = away.column(0).normalize();
-        let solution = self.corrected(&at.unknowns, &direction, distance)?;
+        let solution = self.corrected(&at.unknowns, &direction, (distance, FLOOR))?;
         let secant = (&solution.at - &at.unknowns).normalize();
         let tangent = self.tangent(&solution.at, Some(&secant))?;
         self.followed(self.point(solution.at, tangent)?)
@@ -198,8 +198,13 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     }
 
     /// The point of the branch in the plane at a distance along a direction.
-    fn corrected(&self, from: &Column, direction: &Column, distance: f64) -> Result<Solution, AnalysisError> {
-        solve(from + direction * distance, |unknowns| {
+    fn corrected(
+        &self,
+        from: &Column,
+        direction: &Column,
+        (distance, floor): (f64, f64),
+    ) -> Result<Solution, AnalysisError> {
+        solve(from + direction * distance, floor, |unknowns| {
             let Equations { values, jacobian, scale } = self.equations(unknowns)?;
             let rows = values.len();
             let (mut values, mut jacobian) = (values.insert_row(rows, 0.0), jacobian.insert_row(rows, 0.0));
@@ -212,20 +217,14 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     /// Directions in which solutions go on, without those of symmetries.
     fn free(&self, unknowns: &Column, rank: f64) -> Result<Dense, AnalysisError> {
         let last = unknowns.len() - 1;
-        let singular = AnalysisError::Singular { directions: 0 };
-        let jacobian = self.equations(unknowns).ok_or(singular)?.jacobian;
+        let undefined = AnalysisError::NoConvergence { residual: f64::NAN, steps: 0 };
+        let jacobian = self.equations(unknowns).ok_or(undefined)?.jacobian;
         let (model, _) = (self.family)(unknowns[last])?;
-        let z = unknowns.rows(0, last - self.generators.len()).into_owned();
-        let moved = orbit(&model, &symmetries::<N, M>(), &z).resize_vertically(last + 1, 0.0);
-        let turned = &jacobian * &moved;
-        let along =
-            span(&(&moved * absolute_kernel(&turned, rank * jacobian.norm() * (1.0 + moved.norm()))), rank);
-        let all = kernel(&jacobian, rank);
-        Ok(&all * absolute_kernel(&along.tr_mul(&all), 0.5))
+        Ok(free(&model, &unknowns.rows(0, last - self.generators.len()).into_owned(), &jacobian, rank))
     }
 
     fn tangent(&self, unknowns: &Column, before: Option<&Column>) -> Result<Column, AnalysisError> {
-        let free = self.free(unknowns, RANK)?;
+        let free = self.free(unknowns, DEGENERATE)?;
         let directions = free.ncols();
         match before {
             Some(before) if directions > 0 => Ok((&free * free.tr_mul(before)).normalize()),
@@ -233,7 +232,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
                 let rises = free[(free.nrows() - 1, 0)] >= 0.0;
                 Ok(free.column(0) * if rises { 1.0 } else { -1.0 })
             }
-            _ => Err(AnalysisError::Singular { directions }),
+            _ => Err(AnalysisError::Degenerate { kernel: directions, expected: 1 }),
         }
     }
 
@@ -249,8 +248,8 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     }
 
     /// The point at a distance from another along its tangent.
-    fn beyond(&self, from: &At<N, M>, distance: f64) -> Result<At<N, M>, AnalysisError> {
-        let solution = self.corrected(&from.unknowns, &from.tangent, distance)?;
+    fn beyond(&self, from: &At<N, M>, distance: f64, floor: f64) -> Result<At<N, M>, AnalysisError> {
+        let solution = self.corrected(&from.unknowns, &from.tangent, (distance, floor))?;
         let tangent = self.tangent(&solution.at, Some(&from.tangent))?;
         self.point(solution.at, tangent)
     }
@@ -259,7 +258,8 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         let mut branch = Branch { points: Vec::new(), special: Vec::new() };
         let (mut now, mut step) = (start, self.step);
         while branch.points.len() < MOST_POINTS {
-            let next = self.beyond(&now, step).ok().filter(|next| next.tangent.dot(&now.tangent) > STRAIGHT);
+            let next =
+                self.beyond(&now, step, FLOOR).ok().filter(|next| next.tangent.dot(&now.tangent) > STRAIGHT);
             let Some(next) = next else {
                 step *= 0.5;
                 if step < SHORTEST * self.step {
@@ -281,8 +281,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     /// What is special between two points; what is not located is left out.
     fn special(&self, a: &At<N, M>, b: &At<N, M>, distance: f64) -> Vec<(Special, At<N, M>)> {
         let last = a.unknowns.len() - 1;
-        let negative =
-            |point: &At<N, M>| point.stability.stiffnesses.iter().filter(|one| **one < 0.0).count();
+        let negative = |at: &At<N, M>| at.stability.stiffnesses.iter().filter(|one| **one < 0.0).count();
         let mode = negative(a).min(negative(b));
         let growth = [a, b].map(|point| match point.stability.verdict {
             StabilityVerdict::Unstable { .. } => point.stability.fastest(),
@@ -290,8 +289,8 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         });
         let mut found = Vec::new();
         let mut locate = |kind: Special, value: Value<'_, N, M>| {
-            let place = root(distance, |h| value(&self.beyond(a, h).ok()?));
-            found.extend(place.and_then(|h| Some((kind, self.beyond(a, h).ok()?))));
+            let place = root(distance, |h| value(&self.beyond(a, h, RANK_AT_BRANCH_POINT).ok()?));
+            found.extend(place.and_then(|h| Some((kind, self.beyond(a, h, RANK_AT_BRANCH_POINT).ok()?))));
         };
         let turns = a.tangent[last] * b.tangent[last] < 0.0;
         if turns {
@@ -300,10 +299,16 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         if negative(a) != negative(b) && !turns {
             locate(Special::Bifurcation, &|point| point.stability.stiffnesses.get(mode).copied());
         }
-        if let [None, Some(fastest)] | [Some(fastest), None] = growth
-            && fastest.value.im.abs() > fastest.error
-        {
-            locate(Special::Collision, &|point| point.stability.discriminant(fastest.value));
+        if let [None, Some(fastest)] | [Some(fastest), None] = growth {
+            let oscillates = fastest.value.im.abs() > fastest.error;
+            let damped: Value<'_, N, M> = &|point| point.stability.fastest().map(|one| one.value.re);
+            let meeting: Value<'_, N, M> = &|point| point.stability.discriminant(fastest.value);
+            match (a.stability.signature.is_some(), oscillates) {
+                (true, true) => locate(Special::Collision, meeting),
+                (false, true) => locate(Special::Hopf, damped),
+                (false, false) if !turns => locate(Special::Bifurcation, damped),
+                _ => {}
+            }
         }
         found
     }

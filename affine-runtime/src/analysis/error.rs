@@ -26,18 +26,19 @@ pub enum AnalysisError {
     /// The equations are not those of small vibrations about rest: something moves, a force has no potential, or the mass
     /// matrix is not positive.
     NoVibrations,
-    /// A branch meets points that it has no single continuation from.
-    Singular {
-        /// Directions in which solutions go on, along orbits of symmetries not counted.
-        directions: usize,
+    /// Solutions go on in more directions than they should, or in none: a bifurcation point, or one of a family. Orbits of
+    /// symmetries are not counted.
+    Degenerate {
+        /// Directions in which the linearised equations have solutions.
+        kernel: usize,
+        /// As many as velocities are left open by the conditions, and one along a branch.
+        expected: usize,
     },
     /// Steps along a branch have become too short.
     StepUnderflow {
         /// Length of the last one.
         step: f64,
     },
-    /// A multiplier belongs to the motion, which is not differentiated by fields.
-    HasMultiplier,
     /// Eigenvalues or singular values were not found.
     NoDecomposition,
     /// The model, at some value of its parameter.
@@ -52,16 +53,13 @@ impl fmt::Display for AnalysisError {
             Self::NoConvergence { residual, steps } => {
                 write!(f, "no solution near the guess: residual {residual:e} after {steps} steps")
             }
-            Self::NotASymmetry { defect } => {
-                write!(f, "the model is not proved to have this symmetry: defect {defect:e}")
-            }
+            Self::NotASymmetry { defect } => write!(f, "no symmetry of the energy: defect {defect:e}"),
             Self::DependsOnTime => write!(f, "the potential contains the time: nothing rests"),
-            Self::NoVibrations => {
-                write!(f, "something moves, a force has no potential, or masses are not positive")
+            Self::NoVibrations => write!(f, "something moves or is damped, or masses are not positive"),
+            Self::Degenerate { kernel, expected } => {
+                write!(f, "solutions go on in {kernel} directions where {expected} are expected")
             }
-            Self::Singular { directions } => write!(f, "solutions go on in {directions} directions"),
             Self::StepUnderflow { step } => write!(f, "steps along the branch are too short: {step:e}"),
-            Self::HasMultiplier => write!(f, "the multiplier of a constraint depends on the fields"),
             Self::NoDecomposition => write!(f, "eigenvalues were not found"),
             Self::Model(error) => error.fmt(f),
             Self::Integration(failure) => failure.fmt(f),

@@ -3,13 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::generator::Generator;
-use super::linear::{Column, Dense};
-use super::rates::rates;
-use crate::dual::Dual;
-use crate::frames::{Matrix, inverse};
+use super::linear::{Column, Dense, from_columns};
+use crate::dual::{Dual, fixed};
+use crate::frames::Matrix;
 use crate::model::{Constraint, Model, StateVector};
 use crate::scalar::Real;
-use crate::simulate::has_multiplier;
 use crate::state::Phase;
 
 /// A plain array of a model.
@@ -25,12 +23,7 @@ pub(super) fn vector<S: AsRef<[f64]>>(state: &S) -> Column {
 
 /// `X_H`.
 pub(super) fn motion<const N: usize, M: Model<N>>(model: &M, z: &Column) -> Column {
-    vector(&rates(model, 0.0, &full::<N, M>(z)))
-}
-
-/// `X_zeta`.
-pub(super) fn generated<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &Column) -> Column {
-    vector(&zeta.field(model, &full::<N, M>(z)))
+    vector(&model.hamilton_equations(0.0, &full::<N, M>(z)))
 }
 
 /// Columns of fields of generators.
@@ -39,8 +32,9 @@ pub(super) fn orbit<const N: usize, M: Model<N>>(
     generators: &[Generator<N>],
     z: &Column,
 ) -> Dense {
-    let columns: Vec<_> = generators.iter().map(|zeta| generated(model, zeta, z)).collect();
-    if columns.is_empty() { DMatrix::zeros(z.len(), 0) } else { DMatrix::from_columns(&columns) }
+    let columns: Vec<_> =
+        generators.iter().map(|zeta| vector(&zeta.field(model, &full::<N, M>(z)))).collect();
+    from_columns(z.len(), &columns)
 }
 
 /// `D(X_H - X_zeta)`.
@@ -49,16 +43,13 @@ pub(super) fn linear_motion<const N: usize, M: Model<N>>(
     zeta: &Generator<N>,
     z: &Column,
 ) -> Dense {
-    let motion = columns::<N, M>(z, |full| rates(model, Dual::fixed(0.0), full).as_ref().to_vec());
-    motion - linear_generated(model, zeta, z)
+    let motion =
+        columns::<N, M>(z, |full| model.hamilton_equations(Dual::fixed(0.0), full).as_ref().to_vec());
+    motion - linear_field(model, zeta, z)
 }
 
 /// `D X_zeta`.
-pub(super) fn linear_generated<const N: usize, M: Model<N>>(
-    model: &M,
-    zeta: &Generator<N>,
-    z: &Column,
-) -> Dense {
+pub(super) fn linear_field<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &Column) -> Dense {
     columns::<N, M>(z, |full| zeta.field(model, full).as_ref().to_vec())
 }
 
@@ -68,8 +59,7 @@ fn columns<const N: usize, M: Model<N>>(
     map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
 ) -> Dense {
     let column = |k: usize| {
-        let mut varied = M::Full::<Dual<f64>>::zeros();
-        varied.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        let mut varied: M::Full<Dual<f64>> = fixed(z.as_slice());
         varied.as_mut()[k].slope = 1.0;
         DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
     };
@@ -78,16 +68,10 @@ fn columns<const N: usize, M: Model<N>>(
 
 /// The potential contains the time.
 pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &Column) -> bool {
-    let mut fixed = M::Full::<Dual<f64>>::zeros();
-    fixed.as_mut().iter_mut().zip(z.iter()).for_each(|(both, value)| *both = Dual::fixed(*value));
+    let still: M::Full<Dual<f64>> = fixed(z.as_slice());
     // No time at which a sine or a cosine is flat.
-    let rates = model.free_equations(Dual { value: 0.7310585786, slope: 1.0 }, &fixed);
+    let rates = model.hamilton_equations(Dual { value: 0.7310585786, slope: 1.0 }, &still);
     rates.as_ref().iter().any(|rate| rate.slope != 0.0)
-}
-
-/// The momentum of a generator.
-pub(super) fn momentum<const N: usize, M: Model<N>>(model: &M, zeta: &Generator<N>, z: &Column) -> f64 {
-    zeta.momentum(model, &model.unflatten(&full::<N, M>(z)))
 }
 
 /// What vanishes on the phase points of a confined model.
@@ -106,22 +90,15 @@ fn constraints<const N: usize, M: Model<N>, T: Real>(model: &M, full: &M::Full<T
     if constraint != Constraint::Isochoric {
         values.extend(pairs().map(|(a, b)| green[(a, b)]));
     }
-    if has_multiplier(&M::DESCRIPTION) {
-        let velocity = model.velocity(&model.unflatten(full)).phi_dot;
-        values.push((inverse(model.unflatten(full).phi()) * velocity).trace());
-    }
     values
 }
 
 /// A determinant in any numbers.
 pub(super) fn determinant<const N: usize, T: Real>(phi: &Matrix<N, T>) -> T {
-    let minor = |i: usize, j: usize| {
-        let (r, c) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
-        phi[(r[0], c[0])] * phi[(r[1], c[1])] - phi[(r[0], c[1])] * phi[(r[1], c[0])]
-    };
+    let minor = |a: usize, b: usize| phi[(N - 2, a)] * phi[(N - 1, b)] - phi[(N - 2, b)] * phi[(N - 1, a)];
     match N {
-        2 => phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)],
-        _ => (0..3).fold(T::zero(), |sum, j| phi[(0, j)].fma(minor(0, j), sum)),
+        2 => minor(0, 1),
+        _ => phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1),
     }
 }
 

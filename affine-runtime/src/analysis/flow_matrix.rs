@@ -4,14 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{full, normals, symplectic_form, vector};
+use super::generator::place;
 use super::jacobian::JacobianMatrix;
-use super::linear::{RANK, kernel};
-use super::rates::rates;
-use crate::dual::Dual;
+use super::linear::{RANK, from_columns, kernel};
+use crate::dual::{Dual, fixed};
 use crate::integrate::RungeKutta8;
-use crate::model::{Group, Model, Quantity, StateVector};
+use crate::model::{Group, Model, Quantity};
 use crate::parametric::{Fields, Parametric};
-use crate::simulate::has_multiplier;
 
 /// Components of the largest state with a matrix of as many columns.
 const COMPONENTS: usize = 24 * 25;
@@ -86,6 +85,13 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
         DMatrix::from_column_slice(own, count, &self.state[own..own * (count + 1)])
     }
 
+    /// Where positions are in the plain array.
+    fn positions(&self) -> Vec<usize> {
+        let at =
+            |quantity, len: usize| place(&M::DESCRIPTION, quantity).map_or(0..0, |start| start..start + len);
+        at(Quantity::Position, N).chain(at(Quantity::Placement, N * N)).collect()
+    }
+
     /// Moves to a time, forward or backward.
     ///
     /// # Errors
@@ -104,7 +110,7 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
         let slope = |t: f64, wide: &Wide| {
             let z = full::<N, M>(&DVector::from_column_slice(&wide[..own]));
             let columns = DMatrix::from_column_slice(own, own, &wide[own..own * (own + 1)]);
-            let (rates, forced) = (rates(self.model, t, &z), forcing(t, &z));
+            let (rates, forced) = (self.model.hamilton_equations(t, &z), forcing(t, &z));
             let moved = self.jacobian.at(t, z) * columns;
             let mut slope = [0.0; COMPONENTS];
             slope[..own].copy_from_slice(rates.as_ref());
@@ -146,47 +152,81 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
     }
 }
 
-/// The derivative of the plain array at a time by the fields of a model, one column each in the order of their values, where the
-/// plain array of the start is held: placement and momentum, not the velocity.
-///
-/// # Errors
-/// [`AnalysisError::Model`] where coefficients have no derivative, [`AnalysisError::Integration`];
-/// [`AnalysisError::HasMultiplier`] for an isochoric `dalembert`.
-pub fn field_sensitivities<const N: usize, F: Fields<N>>(
-    fields: &F,
-    model: &F::Prepared,
-    (t0, point): (f64, &<F::Prepared as Model<N>>::Point<f64>),
-    t: f64,
-    tolerance: f64,
-) -> Result<DMatrix<f64>, AnalysisError> {
-    if has_multiplier(&<F::Prepared as Model<N>>::DESCRIPTION) {
-        return Err(AnalysisError::HasMultiplier);
-    }
-    let values = fields.values();
-    let varied = (0..values.as_ref().len()).map(|k| {
-        let mut varied = F::Values::<Dual<f64>>::zeros();
-        varied.as_mut().iter_mut().zip(values.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
-        varied.as_mut()[k].slope = 1.0;
-        F::coefficients_of(&varied)
-    });
-    let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
-    let mut columns = Vec::new();
-    // As many at once as the state has components.
-    for coefficients in coefficients.chunks(<F::Prepared as Model<N>>::Full::<f64>::LEN) {
+/// How the plain array at a time depends on the start of its motion and on the fields of the model: one column for each component
+/// or field. What is held fixed makes a difference: a start that is given by its velocity has other momenta where fields differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivities {
+    /// By the plain array of the start, see [`FlowMatrix::matrix`].
+    pub by_start: DMatrix<f64>,
+    /// By the start as positions and velocities: those of `x` and `phi` in the plain array, then their rates in the same order.
+    /// Of a constraint, along what it admits.
+    pub by_velocity: DMatrix<f64>,
+    /// By the fields in the order of their values, where the plain array of the start is held: placement and momentum.
+    pub by_fields: DMatrix<f64>,
+    /// By the fields, where placement and velocity of the start are held.
+    pub by_fields_at_velocity: DMatrix<f64>,
+}
+
+impl Sensitivities {
+    /// Those of the motion that passes through a point at `t0`. The tolerance bounds the relative error of each step.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Model`] where coefficients have no derivative, [`AnalysisError::Integration`],
+    /// [`AnalysisError::NoDecomposition`].
+    pub fn of<const N: usize, F: Fields<N>>(
+        fields: &F,
+        model: &F::Prepared,
+        (t0, point): (f64, &<F::Prepared as Model<N>>::Point<f64>),
+        t: f64,
+        tolerance: f64,
+    ) -> Result<Self, AnalysisError> {
+        let values = fields.values();
+        let varied = (0..values.as_ref().len()).map(|k| {
+            let mut varied: F::Values<Dual<f64>> = fixed(values.as_ref());
+            varied.as_mut()[k].slope = 1.0;
+            F::coefficients_of(&varied)
+        });
+        let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
         let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
-        flow.set(&DMatrix::zeros(0, 0));
-        flow.advance(t, |t, z| {
-            let mut fixed = <F::Prepared as Model<N>>::Full::<Dual<f64>>::zeros();
-            fixed.as_mut().iter_mut().zip(z.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
-            let slopes = coefficients.iter().flat_map(|coefficients| {
-                let rates = model.hamilton_equations_with(coefficients, Dual::fixed(t), &fixed);
-                rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
-            });
-            DMatrix::from_iterator(z.as_ref().len(), coefficients.len(), slopes)
-        })?;
-        columns.extend(flow.columns(coefficients.len()).column_iter().map(|column| column.into_owned()));
+        let (own, mut by_fields) = (flow.start.len(), Vec::new());
+        // As many at once as the state has components.
+        for coefficients in coefficients.chunks(own) {
+            let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
+            flow.set(&DMatrix::zeros(0, 0));
+            flow.advance(t, |t, z| field_slopes::<N, F>(model, coefficients, t, z.as_ref()))?;
+            by_fields.extend(flow.columns(coefficients.len()).column_iter().map(|one| one.into_owned()));
+        }
+        let by_fields = from_columns(own, &by_fields);
+        let slopes = field_slopes::<N, F>(model, &coefficients, t0, flow.start.as_slice());
+        // Places and velocities by the plain array, and that by these.
+        let mut both = flow.jacobian.at(t0, flow.start.as_slice()).insert_rows(0, own, 0.0);
+        both.rows_mut(0, own).fill_with_identity();
+        let places = flow.positions();
+        let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
+        let inverse = both.select_rows(&rows).pseudo_inverse(RANK);
+        let inverse = inverse.map_err(|_| AnalysisError::NoDecomposition)?;
+        flow.advance_to(t)?;
+        let by_start = flow.matrix();
+        let by_velocity = &by_start * inverse;
+        let by_rates = by_velocity.columns(places.len(), places.len());
+        let by_fields_at_velocity = &by_fields - by_rates * slopes.select_rows(&places);
+        Ok(Self { by_start, by_velocity, by_fields, by_fields_at_velocity })
     }
-    Ok(if columns.is_empty() { DMatrix::zeros(0, 0) } else { DMatrix::from_columns(&columns) })
+}
+
+/// The derivatives of the rates by fields, in columns.
+fn field_slopes<const N: usize, F: Fields<N>>(
+    model: &F::Prepared,
+    coefficients: &[<F::Prepared as Parametric<N>>::Coefficients<Dual<f64>>],
+    t: f64,
+    z: &[f64],
+) -> DMatrix<f64> {
+    let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
+    let slopes = coefficients.iter().flat_map(|own| {
+        let rates = model.hamilton_equations_with(own, Dual::fixed(t), &still);
+        rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
+    });
+    DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
 }
 
 /// Lyapunov exponents of a motion over a time, from the largest, in the norm of the plain array.
@@ -194,8 +234,9 @@ pub fn field_sensitivities<const N: usize, F: Fields<N>>(
 pub struct LyapunovSpectrum {
     /// The exponents.
     pub exponents: Vec<f64>,
-    /// What they may be off by: their change over the second half of the time, the sum of the pair that should be opposite, and
-    /// `ln t/t` of growth that is no exponential.
+    /// An estimate of what they are off by: their change over the second half of the time, the sum of the pair that should be
+    /// opposite, and `ln t/t` of growth that is no exponential. No finite time gives a bound; with friction there are no pairs, and
+    /// the estimate is too large.
     pub errors: Vec<f64>,
 }
 
@@ -211,7 +252,10 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     tolerance: f64,
 ) -> Result<LyapunovSpectrum, AnalysisError> {
     let mut flow = FlowMatrix::new(model, (0.0, start), tolerance);
-    let mut columns = kernel(&normals(model, &flow.start), RANK);
+    let basis = kernel(&normals(model, &flow.start), RANK);
+    // Of no special directions, in which growth would be less.
+    let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
+    let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
     let (count, rounds) = (columns.ncols(), time.abs().max(ROUNDS).ceil());
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {
@@ -225,11 +269,9 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
         }
     }
     let secular = time.abs().max(1.0).ln() / time.abs();
-    let own: Vec<(f64, f64)> =
-        sums.iter().zip(half.iter()).map(|(sum, half)| (sum / time, 2.0 * half / time)).collect();
-    let mut exponents: Vec<f64> = own.iter().map(|(exponent, _)| *exponent).collect();
+    let mut exponents: Vec<f64> = sums.iter().map(|sum| sum / time).collect();
     exponents.sort_by(|a, b| b.total_cmp(a));
-    let drift = own.iter().map(|(whole, half)| (whole - half).abs()).fold(0.0, f64::max);
+    let drift = (sums - half * 2.0).amax() / time.abs();
     let pair = |k: usize| (exponents[k] + exponents[count - 1 - k]).abs();
     let errors = (0..count).map(|k| drift + pair(k) + secular).collect();
     Ok(LyapunovSpectrum { exponents, errors })

@@ -4,11 +4,12 @@ use nalgebra::DVector;
 use num_traits::Zero;
 
 use super::error::AnalysisError;
-use super::linear::{Column, Dense, solved};
-use crate::dual::Dual;
+use super::linear::{Column, from_columns, solved};
+
+use crate::dual::{Dual, fixed};
 use crate::frames::{Matrix, Vector};
 use crate::metrics::Bases;
-use crate::model::{Conserved, Constraint, Entry, Model, Quantity, StateVector};
+use crate::model::{Conserved, Constraint, Description, Entry, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -69,6 +70,11 @@ impl<const N: usize> Generator<N> {
         }
     }
 
+    /// The sum of multiples of generators.
+    pub(super) fn sum<'a>(terms: impl IntoIterator<Item = (f64, &'a Self)>) -> Self {
+        terms.into_iter().fold(Self::zero(), |sum, (factor, generator)| sum.plus(factor, generator))
+    }
+
     /// The bracket of the fields of two generators, which is that of matrices in space and its negative in the body.
     pub(super) fn bracket(&self, other: &Self) -> Self {
         Self {
@@ -105,25 +111,22 @@ impl<const N: usize> Generator<N> {
         let drift = self.drift.map(|entry| T::constant(entry, 0.0));
         let point = model.orthonormal(&model.unflatten(full));
         let (phi, x, p) = (*point.phi(), point.x(), point.p());
-        let (spin, spin_rate) = if has::<N, M>(Quantity::CanonicalMomentum) {
+        let has = |quantity| place(&M::DESCRIPTION, quantity).is_some();
+        let (spin, spin_rate) = if has(Quantity::CanonicalMomentum) {
             let pi = point.pi().0.0;
             (pi, -(pi * space + body * pi))
-        } else if has::<N, M>(Quantity::AffineSpin) {
+        } else if has(Quantity::AffineSpin) {
             let sigma = point.sigma().0.0;
             (sigma, space * sigma - sigma * space)
         } else {
             let sigma_hat = point.sigma_hat().0.0;
             (sigma_hat, sigma_hat * body - body * sigma_hat)
         };
-        let rates = [space * phi + phi * body, spin_rate];
-        let vectors = [(x, orbit * x + drift), (p, -(orbit.transpose() * p))];
-        let of_matrices = [phi, spin].into_iter().zip(rates);
-        let of_matrices = of_matrices.flat_map(|(value, rate)| pairs(value.as_slice(), rate.as_slice()));
-        let of_vectors =
-            vectors.into_iter().flat_map(|(value, rate)| pairs(value.as_slice(), rate.as_slice()));
-        let mut entries = of_matrices.chain(of_vectors).collect::<Vec<_>>().into_iter();
-        let mut varied = M::Full::<Dual<T>>::zeros();
-        varied.as_mut().iter_mut().zip(full.as_ref()).for_each(|(both, value)| *both = Dual::fixed(*value));
+        let values = [phi.as_slice(), spin.as_slice(), x.as_slice(), p.as_slice()].concat();
+        let (of_phi, of_x, of_p) = (space * phi + phi * body, orbit * x + drift, -(orbit.transpose() * p));
+        let rates = [of_phi.as_slice(), spin_rate.as_slice(), of_x.as_slice(), of_p.as_slice()].concat();
+        let mut entries = values.into_iter().zip(rates).map(|(value, slope)| Dual { value, slope });
+        let varied: M::Full<Dual<T>> = fixed(full.as_ref());
         let varied = model.orthonormal(&model.unflatten(&varied));
         let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(Dual::zero));
         let one = Matrix::<N>::identity();
@@ -136,13 +139,10 @@ impl<const N: usize> Generator<N> {
     }
 }
 
-/// Numbers with their derivatives.
-fn pairs<T: Real>(values: &[T], slopes: &[T]) -> Vec<Dual<T>> {
-    values.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: *slope }).collect()
-}
-
-fn has<const N: usize, M: Model<N>>(quantity: Quantity) -> bool {
-    M::DESCRIPTION.full.iter().any(|group| group.quantity == quantity)
+/// Where a quantity begins in the plain array.
+pub(super) fn place(model: &Description, quantity: Quantity) -> Option<usize> {
+    let index = model.full.iter().position(|group| group.quantity == quantity)?;
+    Some(model.full[..index].iter().map(|group| group.len).sum())
 }
 
 /// `E_ji - E_ij`, numbered from 1.
@@ -158,14 +158,9 @@ fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 /// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.
 pub(super) fn symmetries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
     let mut basis: Vec<Generator<N>> = Vec::new();
-    let mut directions: Vec<Column> = Vec::new();
     for generator in M::DESCRIPTION.conserved.iter().flat_map(|quantity| generators::<N>(*quantity)) {
         let generator = confined::<N, M>(&generator);
-        let components = generator.components();
-        let mut rest = components.clone();
-        directions.iter().for_each(|direction| rest -= direction * direction.dot(&components));
-        if rest.norm() > ROUNDING.sqrt() {
-            directions.push(rest.normalize());
+        if assert_symmetry(&basis, &generator).is_err() {
             basis.push(generator);
         }
     }
@@ -178,14 +173,11 @@ pub(super) fn assert_symmetry<const N: usize>(
     generator: &Generator<N>,
 ) -> Result<(), AnalysisError> {
     let components = generator.components();
-    let span = Dense::from_fn(components.len(), basis.len(), |i, k| basis[k].components()[i]);
+    let span = from_columns(components.len(), &basis.iter().map(Generator::components).collect::<Vec<_>>());
     let rest = &components - &span * solved(&span, &components)?;
     let defect = rest.norm() / components.norm();
-    if components.norm() == 0.0 || defect <= ROUNDING {
-        Ok(())
-    } else {
-        Err(AnalysisError::NotASymmetry { defect })
-    }
+    let is_one = components.norm() == 0.0 || defect <= ROUNDING;
+    is_one.then_some(()).ok_or(AnalysisError::NotASymmetry { defect })
 }
 
 /// What leaves the group to which the motion is confined is left out, and what moves a centre of mass that the model has not.
@@ -199,7 +191,7 @@ pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) ->
         Some(Constraint::Conformal) => skew(matrix) + mean(matrix),
     };
     let (space, body) = (kept(&generator.space), kept(&generator.body));
-    match has::<N, M>(Quantity::Position) {
+    match place(&M::DESCRIPTION, Quantity::Position).is_some() {
         true => Generator { space, body, ..*generator },
         false => Generator { space, body, ..Generator::zero() },
     }

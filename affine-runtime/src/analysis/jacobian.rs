@@ -2,9 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::rates::rates;
-use super::sparse::differentiated;
-use super::tape::{Operand, Operation, Recorded, recorded};
+use super::tape::{Kind, Operand, Operation, Recorded, recorded};
+use crate::dual::Dual;
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
 
@@ -12,7 +11,8 @@ use crate::scalar::Scalar;
 ///
 /// The operations of `f` are recorded once, at a point, and differentiated one after the other by those components alone that they
 /// depend on: the result is exact, and all of its columns share the values of `f`. Where `f` has a branch, as a force of the user
-/// may, the code is that of the branch at the point.
+/// may, the code is that of the branch at the point. With a potential in single stretches each column is computed alone: where
+/// stretches coincide, so do the axes that belong to them, and which are right depends on the direction.
 ///
 /// ```
 /// use affine_runtime::analysis::JacobianMatrix;
@@ -34,31 +34,23 @@ pub struct JacobianMatrix {
 }
 
 impl JacobianMatrix {
-    /// That of Hamilton's equations over the plain array, [`Model::hamilton_equations`]; the multiplier of an isochoric
-    /// `dalembert` is differentiated as well.
+    /// That of Hamilton's equations over the plain array, [`Model::hamilton_equations`].
     pub fn of<const N: usize, M: Model<N>>(model: &M, t: f64, point: &M::Point<f64>) -> Self {
         let full = model.flatten(point);
         Self::recorded(t, full.as_ref(), |t, numbers| {
-            let mut state = M::Full::<Recorded>::zeros();
-            state.as_mut().copy_from_slice(numbers);
-            rates(model, t, &state).as_ref().to_vec()
+            model.hamilton_equations(t, &state_of(numbers)).as_ref().to_vec()
         })
     }
 
     /// That of [`Model::reduced_equations`] over the reduced state, at the constants of the trajectory that passes through a
     /// point at a time.
     pub fn of_reduced<const N: usize, M: Model<N>>(model: &M, t: f64, point: &M::Point<f64>) -> Self {
-        let values = model.flatten(point);
-        let mut full = M::Full::<Recorded>::zeros();
-        for (number, value) in full.as_mut().iter_mut().zip(values.as_ref()) {
-            *number = Recorded::constant(*value, 0.0);
-        }
-        let (_, constants) = model.reduce(Recorded::constant(t, 0.0), &model.unflatten(&full));
+        let number = |value: &f64| Recorded::constant(*value, 0.0);
+        let full = state_of(&model.flatten(point).as_ref().iter().map(number).collect::<Vec<_>>());
+        let (_, constants) = model.reduce(number(&t), &model.unflatten(&full));
         let (reduced, _) = model.reduce(t, point);
         Self::recorded(t, reduced.as_ref(), |t, numbers| {
-            let mut state = M::Reduced::<Recorded>::zeros();
-            state.as_mut().copy_from_slice(numbers);
-            model.reduced_equations(t, &constants, &state).as_ref().to_vec()
+            model.reduced_equations(t, &constants, &state_of(numbers)).as_ref().to_vec()
         })
     }
 
@@ -84,4 +76,83 @@ impl JacobianMatrix {
         });
         matrix
     }
+}
+
+fn state_of<S: StateVector<Recorded>>(numbers: &[Recorded]) -> S {
+    let mut state = S::zeros();
+    state.as_mut().copy_from_slice(numbers);
+    state
+}
+
+/// The derivative of an operation by one of the numbers that it reads, up to the sign, which is minus where it is `true`.
+/// `None` is 1, by which nothing is multiplied.
+fn partial<T: Scalar>(kind: Kind, k: usize, operands: [T; 3]) -> (bool, Option<T>) {
+    match (kind, k) {
+        (Kind::Add, _) | (Kind::Sub, 0) | (Kind::Fma, 2) => (false, None),
+        (Kind::Sub | Kind::Neg, _) => (true, None),
+        (Kind::Mul | Kind::Fma, k) => (false, Some(operands[1 - k])),
+        _ => {
+            let mut varied = operands.map(Dual::fixed);
+            varied[k].slope = T::one();
+            (false, Some(kind.of(varied).slope))
+        }
+    }
+}
+
+/// The derivatives of results by so many of the first arguments that are not zero, each given to `each` with its row and column.
+fn differentiated<T: Scalar>(
+    (tape, results): (&[Operation], &[Operand]),
+    (arguments, columns): (&[T], usize),
+    mut each: impl FnMut(usize, usize, T),
+) {
+    // Where stretches coincide, numbers on the way depend on the direction of which they are the derivatives.
+    if tape.iter().any(|(kind, _)| matches!(kind, Kind::FirstApart | Kind::SecondApart)) {
+        for column in 0..columns {
+            let mut varied: Vec<_> = arguments.iter().copied().map(Dual::fixed).collect();
+            varied[column].slope = T::one();
+            let values = evaluated(tape, varied);
+            results.iter().enumerate().for_each(|(row, result)| each(row, column, result.of(&values).slope));
+        }
+        return;
+    }
+    let mut values: Vec<T> = arguments.to_vec();
+    // Sorted by columns.
+    let mut slopes: Vec<Vec<(usize, T)>> = (0..arguments.len())
+        .map(|node| (node < columns).then(|| (node, T::one())).into_iter().collect())
+        .collect();
+    for (kind, operands) in &tape[arguments.len()..] {
+        let numbers = operands.map(|operand| operand.of(&values));
+        let mut sums: Vec<(usize, T)> = Vec::new();
+        for (k, operand) in operands.iter().enumerate() {
+            let Operand::Node(from) = *operand else { continue };
+            let (is_negative, partial) = partial(*kind, k, numbers);
+            for (column, slope) in &slopes[from] {
+                let term = match partial {
+                    None => *slope,
+                    Some(partial) if from < arguments.len() => partial,
+                    Some(partial) => partial * *slope,
+                };
+                let term = if is_negative { -term } else { term };
+                match sums.binary_search_by_key(column, |(own, _)| *own) {
+                    Ok(place) => sums[place].1 += term,
+                    Err(place) => sums.insert(place, (*column, term)),
+                }
+            }
+        }
+        values.push(kind.of(numbers));
+        slopes.push(sums);
+    }
+    for (row, result) in results.iter().enumerate() {
+        if let Operand::Node(node) = *result {
+            slopes[node].iter().for_each(|(column, slope)| each(row, *column, *slope));
+        }
+    }
+}
+
+/// The values of all operations.
+fn evaluated<T: Scalar>(tape: &[Operation], mut values: Vec<T>) -> Vec<T> {
+    for (kind, operands) in &tape[values.len()..] {
+        values.push(kind.of(operands.map(|operand| operand.of(&values))));
+    }
+    values
 }

@@ -13,6 +13,11 @@ pub(super) const RANK: f64 = 1e-9;
 /// Sweeps of a decomposition.
 pub(super) const MOST_SWEEPS: usize = 10_000;
 
+/// A matrix of so many rows from its columns, of which there may be none.
+pub(super) fn from_columns(rows: usize, columns: &[Column]) -> Dense {
+    if columns.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(columns) }
+}
+
 /// Singular values of a matrix that is not empty, with its vectors; `None` for numbers that are not finite.
 pub(super) fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> Option<SVD<T, Dyn, Dyn>> {
     let is_finite = !matrix.is_empty() && matrix.iter().all(|entry| entry.clone().is_finite());
@@ -22,6 +27,15 @@ pub(super) fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -
 /// An orthonormal basis of what a matrix maps to zero: singular values below a part of the largest are none. Empty where
 /// there is no decomposition.
 pub(super) fn kernel(matrix: &Dense, tolerance: f64) -> Dense {
+    mapped_below(matrix, |largest| tolerance * largest)
+}
+
+/// What a matrix maps to less than a number.
+pub(super) fn absolute_kernel(matrix: &Dense, threshold: f64) -> Dense {
+    mapped_below(matrix, |_| threshold)
+}
+
+fn mapped_below(matrix: &Dense, bound: impl Fn(f64) -> f64) -> Dense {
     let columns = matrix.ncols();
     if matrix.nrows() == 0 || columns == 0 {
         return DMatrix::identity(columns, columns);
@@ -33,10 +47,10 @@ pub(super) fn kernel(matrix: &Dense, tolerance: f64) -> Dense {
     else {
         return DMatrix::zeros(columns, 0);
     };
-    let largest = singular_values.max();
-    let none = (0..columns).filter(|k| singular_values[*k] <= tolerance * largest);
+    let bound = bound(singular_values.max());
+    let none = (0..columns).filter(|k| singular_values[*k] <= bound);
     let vectors: Vec<Column> = none.map(|k| v_t.row(k).transpose()).collect();
-    if vectors.is_empty() { DMatrix::zeros(columns, 0) } else { DMatrix::from_columns(&vectors) }
+    from_columns(columns, &vectors)
 }
 
 /// An orthonormal basis of the columns' span.
@@ -51,14 +65,4 @@ pub(super) fn solved(matrix: &Dense, right: &Column) -> Result<Column, AnalysisE
     }
     let svd = decomposed(matrix.clone()).ok_or(AnalysisError::NoDecomposition)?;
     svd.solve(right, RANK).map_err(|_| AnalysisError::NoDecomposition)
-}
-
-/// What a matrix maps to less than a number.
-pub(super) fn absolute_kernel(matrix: &Dense, threshold: f64) -> Dense {
-    let largest = decomposed(matrix.clone()).map_or(0.0, |svd| svd.singular_values.max());
-    if largest <= threshold {
-        DMatrix::identity(matrix.ncols(), matrix.ncols())
-    } else {
-        kernel(matrix, threshold / largest)
-    }
 }

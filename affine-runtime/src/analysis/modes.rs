@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use nalgebra::{DMatrix, Dyn, SVD};
+use nalgebra::{DMatrix, SVD};
 
 use super::error::AnalysisError;
 use super::field::{canonical_slopes, vector};
@@ -165,7 +165,6 @@ impl<const N: usize> Frame<N> {
         let Some(SVD { u: Some(u), v_t: Some(v_t), singular_values: own }) = decomposed::<f64>(dense) else {
             return round(1.0);
         };
-        let own: nalgebra::OVector<f64, Dyn> = own;
         if (1..N).all(|a| near(own[a], own[0])) {
             return round(own[0]);
         }
@@ -178,50 +177,39 @@ impl<const N: usize> Frame<N> {
         }
     }
 
-    /// The first class that has all of the shapes.
+    /// The class that has all of the shapes.
     fn class(&self, shapes: &[Velocity<N>]) -> ModeClass {
         let strains: Vec<Matrix<N>> =
             shapes.iter().map(|shape| self.left.transpose() * shape.phi_dot * self.right).collect();
-        let x: f64 = shapes.iter().map(|shape| shape.x_dot.norm_squared()).sum();
-        let size: f64 = strains.iter().map(Matrix::<N>::norm_squared).sum();
-        // What is left of the shapes without a part of theirs.
-        let consist = |part: &dyn Fn(&Matrix<N>) -> Matrix<N>| {
-            x + strains.iter().map(|one| (one - part(one)).norm_squared()).sum::<f64>() <= STRAY * (x + size)
-        };
-        let mean = |one: &Matrix<N>| Matrix::<N>::identity() * (one.trace() / N as f64);
-        let symmetric = |one: &Matrix<N>| (one + one.transpose()) * 0.5;
-        let block = |one: &Matrix<N>, keep: &dyn Fn(usize, usize) -> bool| {
-            Matrix::<N>::from_fn(|i, a| if keep(i, a) { one[(i, a)] } else { 0.0 })
-        };
-        if size <= STRAY * x {
-            return ModeClass::Drift;
-        }
-        if self.is_round && consist(&mean) {
-            return ModeClass::Breathing;
-        }
-        if self.is_round && consist(&|one| symmetric(one) - mean(one)) {
-            return ModeClass::Shear;
+        let square = |number: f64| number * number;
+        let sum = |of: &dyn Fn(&Matrix<N>) -> f64| strains.iter().map(of).sum::<f64>();
+        let drift = shapes.iter().map(|shape| shape.x_dot.norm_squared()).sum();
+        // The squares of what the shapes have of each class.
+        let mut parts = vec![(ModeClass::Drift, drift)];
+        if self.is_round {
+            let breathing = sum(&|e| square(e.trace()) / N as f64);
+            let shear = sum(&|e| (e + e.transpose()).norm_squared() / 4.0) - breathing;
+            parts.extend([(ModeClass::Breathing, breathing), (ModeClass::Shear, shear)]);
         }
         if let Some(c) = self.axis {
-            let across = |one: &Matrix<N>| block(one, &|i, a| i != c && a != c);
-            let disc = |one: &Matrix<N>| {
-                block(&Matrix::<N>::identity(), &|i, a| i != c && a != c) * (across(one).trace() / 2.0)
-            };
-            let parts: [&dyn Fn(&Matrix<N>) -> Matrix<N>; 3] = [
-                &|one| disc(one) + block(one, &|i, a| i == c && a == c),
-                &|one| block(one, &|i, a| (i == c) != (a == c)),
-                &|one| symmetric(&across(one)) - disc(one),
-            ];
-            let waves = parts.into_iter().position(consist);
-            return waves.map_or(ModeClass::Mixed, |waves| ModeClass::Axial(waves as u8));
+            let (a, b) = ((c + 1) % N, (c + 2) % N);
+            let tilts = [(a, c), (c, a), (b, c), (c, b)];
+            let shears = |e: &Matrix<N>| square(e[(a, a)] - e[(b, b)]) + square(e[(a, b)] + e[(b, a)]);
+            parts.push((
+                ModeClass::Axial(0),
+                sum(&|e| square(e[(a, a)] + e[(b, b)]) / 2.0 + square(e[(c, c)])),
+            ));
+            parts.push((ModeClass::Axial(1), sum(&|e| tilts.iter().map(|at| square(e[*at])).sum())));
+            parts.push((ModeClass::Axial(2), sum(&|e| shears(e) / 2.0)));
+        } else {
+            parts.push((ModeClass::Diagonal, sum(&|e| e.diagonal().norm_squared())));
+            for (a, b) in (0..N).flat_map(|b| (0..b).map(move |a| (a, b))) {
+                let pair = sum(&|e| square(e[(a, b)]) + square(e[(b, a)]));
+                parts.push((ModeClass::Pair(a + 1, b + 1), pair));
+            }
         }
-        if consist(&|one| block(one, &|i, a| i == a)) {
-            return ModeClass::Diagonal;
-        }
-        let pairs = (0..N).flat_map(|a| (0..a).map(move |b| (b, a)));
-        let pair = pairs
-            .into_iter()
-            .find(|(a, b)| consist(&|one| block(one, &|i, j| (i, j) == (*a, *b) || (i, j) == (*b, *a))));
-        pair.map_or(ModeClass::Mixed, |(a, b)| ModeClass::Pair(a + 1, b + 1))
+        let all = drift + sum(&Matrix::<N>::norm_squared);
+        let whole = parts.into_iter().find(|(_, part)| *part >= (1.0 - STRAY) * all);
+        whole.map_or(ModeClass::Mixed, |(class, _)| class)
     }
 }

@@ -9,7 +9,7 @@ use super::linear::{Column, Dense, decomposed};
 const MOST_STEPS: usize = 80;
 /// Singular values are not taken to be smaller than this part of the largest: what symmetries make zero at a solution is
 /// not quite zero beside it.
-const FLOOR: f64 = 1e-9;
+pub(super) const FLOOR: f64 = 1e-9;
 /// A residual of so many roundings is none.
 const ROUNDINGS: f64 = 256.0;
 /// Times that a step may be halved.
@@ -34,12 +34,12 @@ pub(super) struct Solution {
 /// The step of Levenberg and Marquardt whose damping falls with the square of the residual: quadratic convergence to the
 /// nearest solutions wherever the residual measures the distance from them, isolated or not (N. Yamashita, M. Fukushima,
 /// Computing Suppl. 15 (2001) 239).
-fn step(equations: &Equations) -> Result<Column, AnalysisError> {
+fn step(equations: &Equations, floor: f64) -> Result<Column, AnalysisError> {
     let Equations { values, jacobian, scale } = equations;
     let svd = decomposed(jacobian.clone()).ok_or(AnalysisError::NoDecomposition)?;
     let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return Err(AnalysisError::NoDecomposition) };
     let largest = svd.singular_values.max();
-    let damping = (values.norm() / scale).clamp(FLOOR, 1.0) * largest;
+    let damping = (values.norm() / scale).clamp(floor, 1.0) * largest;
     let along = u.tr_mul(values);
     let weighted = DVector::from_fn(along.len(), |k, _| {
         let singular = svd.singular_values[k];
@@ -48,21 +48,22 @@ fn step(equations: &Equations) -> Result<Column, AnalysisError> {
     Ok(v_t.tr_mul(&weighted))
 }
 
-/// A solution near a start. `equations` is `None` outside of where they are defined.
+/// A solution near a start. `equations` is `None` outside of where they are defined. Their rounding is amplified by at most half
+/// of `1/floor`, in the directions of singular values that are about as small.
 pub(super) fn solve(
     start: Column,
+    floor: f64,
     equations: impl Fn(&Column) -> Option<Equations>,
 ) -> Result<Solution, AnalysisError> {
     let mut at = start;
     let no_convergence = |residual: f64, steps| AnalysisError::NoConvergence { residual, steps };
     let mut now = equations(&at).ok_or(no_convergence(f64::NAN, 0))?;
     for steps in 0..MOST_STEPS {
-        let residual = now.values.norm();
-        let rounding = ROUNDINGS * f64::EPSILON * now.scale;
+        let (residual, rounding) = (now.values.norm(), ROUNDINGS * f64::EPSILON * now.scale);
         if !residual.is_finite() {
             return Err(no_convergence(residual, steps));
         }
-        let full_step = step(&now)?;
+        let full_step = step(&now, floor)?;
         let better = (0..HALVINGS).find_map(|halvings| {
             let next = &at + &full_step * 0.5_f64.powi(halvings as i32);
             let there = equations(&next)?;

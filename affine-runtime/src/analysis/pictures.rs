@@ -8,7 +8,7 @@ use super::modes::{Mode, Modes};
 use super::stability::StabilityVerdict;
 use crate::error::Result;
 use crate::frames::Matrix;
-use crate::report::{Curve, CurveDiagram, CurvePanel};
+use crate::report::{Curve, CurveDiagram, CurvePanel, PANEL};
 use crate::state::Phase;
 
 /// Points of an outline.
@@ -24,7 +24,8 @@ impl<const N: usize> Modes<N> {
     /// [`Error::File`](crate::Error::File).
     pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
         let panels = self.modes.iter().filter_map(|mode| panel(&self.rest, mode)).collect();
-        CurveDiagram::new("Modes", panels).save_svg(path)
+        let names = [(0, "at rest"), (1, "at one end"), (2, "at the other")];
+        CurveDiagram::new("Modes", panels).legend(names).save_svg(path)
     }
 }
 
@@ -45,12 +46,18 @@ fn panel<const N: usize>(rest: &Matrix<N>, mode: &Mode<N>) -> Option<CurvePanel>
         };
         Curve { category, points: (0..=POINTS).map(point).collect() }
     };
+    let mut curves = vec![outline(0, 0.0), outline(1, amplitude), outline(2, -amplitude)];
+    // Lengths are the same on both axes: two points alone stand in opposite corners.
+    let far = curves.iter().flat_map(|curve| &curve.points);
+    let far = far.fold(0.0, |far: f64, (x, y)| far.max(x.abs()).max(y.abs()));
+    let corner = [1.0, -1.0].map(|sign| vec![(sign * far * PANEL.0 / PANEL.1, sign * far)]);
+    curves.extend(corner.map(|points| Curve { category: 0, points }));
     Some(CurvePanel {
-        x: format!("{:?}, w = {:.4}, {} shapes", mode.class, mode.frequency(), mode.multiplicity()),
+        x: format!("{:?}, w = {:.4}, multiplicity {}", mode.class, mode.frequency(), mode.multiplicity()),
         y: format!("axes {}, {}", a + 1, b + 1),
         logarithmic: false,
         range: None,
-        curves: vec![outline(0, 0.0), outline(1, amplitude), outline(2, -amplitude)],
+        curves,
     })
 }
 

@@ -4,14 +4,17 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{
-    confinement, depends_on_time, determinant, full, generated, linear_motion, momentum, motion, normals,
-    orbit, symplectic_form, vector,
+    confinement, depends_on_time, determinant, full, linear_motion, motion, normals, orbit, symplectic_form,
+    vector,
 };
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
-use super::linear::{Column, Dense, RANK, kernel, solved};
-use super::newton::{Equations, Solution, solve};
+use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
+use super::newton::{Equations, FLOOR, Solution, solve};
 use crate::model::Model;
 use crate::state::Phase;
+
+/// Singular values at a solution that are none, relative to the largest.
+pub(super) const DEGENERATE: f64 = 1e-8;
 
 /// What is asked of a relative equilibrium, by the place of a generator in the list of those that are free, from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +38,21 @@ pub struct RelativeEquilibrium<const N: usize, P> {
     pub residual: f64,
     /// Steps of Newton's iteration.
     pub steps: usize,
+    /// Directions in which solutions go on to first order, along orbits of symmetries not counted.
+    pub kernel: usize,
+    /// Velocities that no condition fixes: as many directions are expected.
+    pub expected: usize,
+}
+
+impl<const N: usize, P> RelativeEquilibrium<N, P> {
+    /// Itself, where it is the only one near, or where only the velocities that are left open lead away.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Degenerate`] at a bifurcation point, of which the place is known to few digits, and within a family.
+    pub fn isolated(self) -> Result<Self, AnalysisError> {
+        let Self { kernel, expected, .. } = self;
+        if kernel <= expected { Ok(self) } else { Err(AnalysisError::Degenerate { kernel, expected }) }
+    }
 }
 
 /// A point of rest near a guess, `X_H = 0`: the nearest one to rounding, where symmetries make families of them.
@@ -77,8 +95,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     conditions: &[Condition],
 ) -> Result<RelativeEquilibrium<N, M::Point<f64>>, AnalysisError> {
     let basis = symmetries::<N, M>();
-    let generators: Vec<_> = generators.iter().map(confined::<N, M>).collect();
-    let generators = generators.as_slice();
+    let generators = &generators.iter().map(confined::<N, M>).collect::<Vec<_>>();
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
     let z = vector(&model.flatten(guess));
     if depends_on_time(model, &z) {
@@ -87,8 +104,18 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     let velocities = solved(&orbit(model, generators, &z), &motion(model, &z))?;
     let problem = Problem { model, generators, conditions };
     let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().chain(&velocities).copied());
-    let solution = solve(start, |unknowns| problem.equations(unknowns))?;
+    let solution = solve(start, FLOOR, |unknowns| problem.equations(unknowns))?;
     Ok(problem.relative_equilibrium(&solution))
+}
+
+/// An orthonormal basis of the directions in which solutions go on, without those of symmetries: the kernel of a Jacobian by the
+/// plain array, first, and by what else there is.
+pub(super) fn free<const N: usize, M: Model<N>>(model: &M, z: &Column, jacobian: &Dense, rank: f64) -> Dense {
+    let moved = orbit(model, &symmetries::<N, M>(), z).resize_vertically(jacobian.ncols(), 0.0);
+    let threshold = rank * jacobian.norm() * (1.0 + moved.norm());
+    let along = span(&(&moved * absolute_kernel(&(jacobian * &moved), threshold)), rank);
+    let all = kernel(jacobian, rank);
+    &all * absolute_kernel(&along.tr_mul(&all), 0.5)
 }
 
 /// The equations of a relative equilibrium in `(z, velocities)`.
@@ -105,22 +132,25 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     }
 
     pub(super) fn zeta(&self, velocities: &[f64]) -> Generator<N> {
-        let terms = self.generators.iter().zip(velocities);
-        terms.fold(Generator::zero(), |sum, (generator, velocity)| sum.plus(*velocity, generator))
+        Generator::sum(velocities.iter().copied().zip(self.generators))
     }
 
     /// `X_H - X_zeta`, the constraints of the model, the conditions. `None` where `det phi <= 0`.
     pub(super) fn values(&self, unknowns: &Column) -> Option<Column> {
         let (z, velocities) = self.split(unknowns);
-        if determinant(self.model.unflatten(&full::<N, M>(&z)).phi()) <= 0.0 {
+        let point = self.model.unflatten(&full::<N, M>(&z));
+        if determinant(point.phi()) <= 0.0 {
             return None;
         }
-        let unmoved = motion(self.model, &z) - generated(self.model, &self.zeta(&velocities), &z);
+        let field = self.zeta(&velocities).field(self.model, &full::<N, M>(&z));
+        let unmoved = motion(self.model, &z) - vector(&field);
         let mut values: Vec<f64> = unmoved.iter().copied().chain(confinement(self.model, &z)).collect();
         for condition in self.conditions {
             values.push(match *condition {
                 Condition::Velocity(k, value) => velocities.get(k)? - value,
-                Condition::MomentumMap(k, value) => momentum(self.model, self.generators.get(k)?, &z) - value,
+                Condition::MomentumMap(k, value) => {
+                    self.generators.get(k)?.momentum(self.model, &point) - value
+                }
             });
         }
         Some(DVector::from_vec(values))
@@ -152,7 +182,12 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
 
     pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
         let (z, velocities) = self.split(&solution.at);
+        let kernel = self
+            .equations(&solution.at)
+            .map_or(0, |own| free(self.model, &z, &own.jacobian, DEGENERATE).ncols());
         RelativeEquilibrium {
+            kernel,
+            expected: self.generators.len().saturating_sub(self.conditions.len()),
             point: self.model.unflatten(&full::<N, M>(&z)),
             zeta: self.zeta(&velocities),
             velocities,

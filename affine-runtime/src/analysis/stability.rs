@@ -3,7 +3,7 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{linear_generated, vector};
+use super::field::{linear_field, vector};
 use super::generator::Generator;
 use super::linear::{Dense, RANK, absolute_kernel, kernel, span};
 use super::relative::{Linearised, RelativeEquilibrium};
@@ -76,48 +76,34 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
     pub fn stability<M: Model<N, Point<f64> = P>>(&self, model: &M) -> Result<Stability<N>, AnalysisError> {
         let at = Linearised::at(model, &self.zeta, &self.point);
         let slice = Slice::of(&at);
-        let eigenvalues = spectrum(&slice.motion(&at), slice.energy(&at).as_ref())?;
+        let (motion, energy) = (slice.columns.tr_mul(&at.motion) * &slice.columns, slice.energy(&at));
+        let eigenvalues = spectrum(&motion, energy.as_ref())?;
         let isotropy = kernel(&at.orbit, RANK);
-        let Some(energy) = slice.energy(&at) else {
-            let verdict = damped(&eigenvalues);
-            let isotropy = isotropy.ncols();
-            return Ok(Stability {
-                verdict,
-                signature: None,
-                eigenvalues,
-                stiffnesses: Vec::new(),
-                zeta: self.zeta,
-                isotropy,
-            });
+        let mut stability = Stability {
+            verdict: damped(&eigenvalues),
+            signature: None,
+            eigenvalues,
+            stiffnesses: Vec::new(),
+            zeta: self.zeta,
+            isotropy: isotropy.ncols(),
         };
-        let stiffnesses = principal(&energy);
+        let Some(energy) = energy else { return Ok(stability) };
+        stability.stiffnesses = principal(&energy);
         let own = isotropic(model, self, &at, &isotropy);
         let variations: Vec<_> = own.iter().map(|(_, slopes)| slice.form(&slopes.tr_mul(&at.form))).collect();
         let (factors, energy) = nearest_to_definite(&energy, &variations);
-        let terms = own.iter().zip(&factors);
-        let zeta = terms.fold(self.zeta, |zeta, ((generator, _), factor)| zeta.plus(*factor, generator));
+        let shifts = factors.into_iter().zip(own.iter().map(|(generator, _)| generator));
+        stability.zeta = self.zeta.plus(1.0, &Generator::sum(shifts));
         let (positive, negative, zero) = signs(&energy);
-        let verdict = if zero > 0 {
-            match growth(&eigenvalues) {
-                Some(rate) => StabilityVerdict::Unstable { rate },
-                None => StabilityVerdict::Undecided(Doubt::ZeroMode),
-            }
-        } else if positive == 0 || negative == 0 {
-            match slice.is_compact {
-                true => StabilityVerdict::Stable,
-                false => StabilityVerdict::Undecided(Doubt::NonCompact),
-            }
-        } else {
-            conservative(&eigenvalues)
+        stability.signature = Some((positive, negative, zero + slice.along_orbit));
+        stability.verdict = match (growth(&stability.eigenvalues), zero > 0, positive == 0 || negative == 0) {
+            (Some(rate), true, _) | (Some(rate), _, false) => StabilityVerdict::Unstable { rate },
+            (None, true, _) => StabilityVerdict::Undecided(Doubt::ZeroMode),
+            (None, _, false) => conservative(&stability.eigenvalues),
+            _ if slice.is_compact => StabilityVerdict::Stable,
+            _ => StabilityVerdict::Undecided(Doubt::NonCompact),
         };
-        Ok(Stability {
-            verdict,
-            signature: Some((positive, negative, zero + slice.along_orbit)),
-            eigenvalues,
-            stiffnesses,
-            zeta,
-            isotropy: isotropy.ncols(),
-        })
+        Ok(stability)
     }
 }
 
@@ -163,10 +149,6 @@ impl Slice {
         (&form + form.transpose()) * 0.5
     }
 
-    fn motion<const N: usize>(&self, at: &Linearised<N>) -> Dense {
-        self.columns.tr_mul(&at.motion) * &self.columns
-    }
-
     /// The second variation, where the motion is Hamiltonian.
     fn energy<const N: usize>(&self, at: &Linearised<N>) -> Option<Dense> {
         let whole = at.second_variation();
@@ -177,12 +159,8 @@ impl Slice {
 
 /// The algebra has an inner product that its group keeps: Killing's form is negative beside the centre.
 fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &Dense) -> bool {
-    let element = |column: usize| {
-        let factors = stays.column(column);
-        let terms = symmetries.iter().zip(factors.iter());
-        terms.fold(Generator::<N>::zero(), |sum, (generator, factor)| sum.plus(*factor, generator))
-    };
-    let elements: Vec<_> = (0..stays.ncols()).map(element).collect();
+    let elements: Vec<Generator<N>> =
+        stays.column_iter().map(|own| Generator::sum(own.iter().copied().zip(symmetries))).collect();
     if elements.is_empty() {
         return true;
     }
@@ -215,9 +193,8 @@ fn isotropic<const N: usize, M: Model<N>>(
 ) -> Vec<(Generator<N>, Dense)> {
     let z = vector(&model.flatten(&turn.point));
     let of = |column: usize| {
-        let terms = at.symmetries.iter().zip(isotropy.column(column).iter().copied().collect::<Vec<_>>());
-        let generator = terms.fold(Generator::zero(), |sum, (generator, factor)| sum.plus(factor, generator));
-        let slopes = at.basis.tr_mul(&linear_generated(model, &generator, &z)) * &at.basis;
+        let generator = Generator::sum(isotropy.column(column).iter().copied().zip(&at.symmetries));
+        let slopes = at.basis.tr_mul(&linear_field(model, &generator, &z)) * &at.basis;
         // The augmented Hamiltonian changes by `-J`.
         (generator, -slopes)
     };
@@ -276,14 +253,14 @@ fn growth(eigenvalues: &[Eigenvalue]) -> Option<f64> {
     growing.map(|one| one.value.re).reduce(f64::max)
 }
 
+/// Of eigenvalues of which none grows.
 fn conservative(eigenvalues: &[Eigenvalue]) -> StabilityVerdict {
-    match growth(eigenvalues) {
-        Some(rate) => StabilityVerdict::Unstable { rate },
-        None if eigenvalues.iter().any(|one| one.value.norm() <= one.error) => {
-            StabilityVerdict::Undecided(Doubt::ZeroMode)
-        }
-        None if eigenvalues.iter().any(|one| one.is_mixed) => StabilityVerdict::Undecided(Doubt::MixedSigns),
-        None => StabilityVerdict::LinearlyStable,
+    if eigenvalues.iter().any(|one| one.value.norm() <= one.error) {
+        StabilityVerdict::Undecided(Doubt::ZeroMode)
+    } else if eigenvalues.iter().any(|one| one.is_mixed) {
+        StabilityVerdict::Undecided(Doubt::MixedSigns)
+    } else {
+        StabilityVerdict::LinearlyStable
     }
 }
 

@@ -15,6 +15,16 @@ pub(super) enum Operand {
     Constant(f64),
 }
 
+impl Operand {
+    /// What is read.
+    pub(super) fn of<T: Scalar>(self, values: &[T]) -> T {
+        match self {
+            Self::Node(node) => values[node],
+            Self::Constant(value) => T::constant(value, 0.0),
+        }
+    }
+}
+
 /// An operation with what it reads; those of one or two numbers read zeros besides.
 pub(super) type Operation = (Kind, [Operand; 3]);
 
@@ -29,6 +39,9 @@ macro_rules! operations {
             Fma,
             CopySign,
             Max,
+            /// What tells directions apart, see [`Scalar::told_apart`].
+            FirstApart,
+            SecondApart,
             $($operator,)*
             $($name,)*
         }
@@ -41,6 +54,8 @@ macro_rules! operations {
                     Self::Fma => a.fma(b, c),
                     Self::CopySign => a.copysign(b),
                     Self::Max => Scalar::max(a, b),
+                    Self::FirstApart => T::told_apart([a, b], c)[0],
+                    Self::SecondApart => T::told_apart([a, b], c)[1],
                     $(Self::$operator => a.$operate(b),)*
                     $(Self::$name => Scalar::$function(a),)*
                 }
@@ -64,6 +79,9 @@ macro_rules! operations {
         impl Scalar for Recorded {
             fn constant(hi: f64, _lo: f64) -> Self {
                 Self { value: hi, node: None }
+            }
+            fn told_apart([a, b]: [Self; 2], size: Self) -> [Self; 2] {
+                [Kind::FirstApart, Kind::SecondApart].map(|kind| Self::result(kind, [a, b, size]))
             }
             fn fma(self, factor: Self, term: Self) -> Self {
                 Self::result(Kind::Fma, [self, factor, term])
@@ -110,7 +128,7 @@ operations! {
 }
 
 thread_local! {
-    static TAPE: RefCell<Option<Vec<Operation>>> = const { RefCell::new(None) };
+    static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Runs `work`, which is given that many arguments, and returns what is recorded with the operands that it returns.
@@ -120,10 +138,10 @@ pub(super) fn recorded(
     work: impl FnOnce(&[Recorded]) -> Vec<Recorded>,
 ) -> (Vec<Operation>, Vec<Operand>) {
     let argument = (Kind::Argument, [Operand::Constant(0.0); 3]);
-    let before = TAPE.replace(Some(vec![argument; arguments.len()]));
+    let before = TAPE.replace(vec![argument; arguments.len()]);
     let numbers = arguments.iter().enumerate().map(|(k, value)| Recorded { value: *value, node: Some(k) });
     let results = work(&numbers.collect::<Vec<_>>());
-    let tape = TAPE.replace(before).unwrap_or_default();
+    let tape = TAPE.replace(before);
     (tape, results.iter().map(Recorded::operand).collect())
 }
 
@@ -144,12 +162,10 @@ impl Recorded {
         if operands.iter().all(|operand| operand.node.is_none()) {
             return Self { value, node: None };
         }
-        let node = TAPE.with_borrow_mut(|tape| {
-            let tape = tape.as_mut()?;
+        TAPE.with_borrow_mut(|tape| {
             tape.push((kind, operands.map(|operand| operand.operand())));
-            Some(tape.len() - 1)
-        });
-        Self { value, node }
+            Self { value, node: Some(tape.len() - 1) }
+        })
     }
 }
 
@@ -192,10 +208,7 @@ impl Real for Recorded {
     const EPSILON: Self = Self { value: f64::EPSILON, node: None };
 
     fn hypot(self, other: Self) -> Self {
-        let size = Real::hypot(self.value, other.value);
-        let scale = Self { value: if size == 0.0 { 1.0 } else { size }, node: None };
-        let (a, b) = (self / scale, other / scale);
-        (a * a + b * b).sqrt() * scale
+        (self * self + other * other).sqrt()
     }
     fn is_finite(self) -> bool {
         self.value.is_finite()

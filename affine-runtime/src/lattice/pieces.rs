@@ -7,10 +7,10 @@ use crate::decompose::skew_exponential;
 use crate::error::Error;
 use crate::frames::Matrix;
 use crate::inner::accumulate;
-use crate::integrate::Statistics;
-use crate::integrate::lie::Sum;
-use crate::integrate::splitting::{Pieces, Splitting};
 use crate::scalar::{Real, Scalar};
+use affine_integrators::Statistics;
+use affine_integrators::lie::Sum;
+use affine_integrators::splitting::{Pieces, Splitting};
 
 /// A step that takes a coupled pair nearer than this part of its distance does not resolve the pole between them.
 const RESOLVED: f64 = 0.5;
@@ -76,7 +76,7 @@ pub fn turned<const K: usize, T: Real>(
 }
 
 /// The motion of a lattice by splitting, in equal steps, of order 2, 4, 6 or 8; see
-/// [`Splitting`](crate::integrate::Splitting) for the compositions.
+/// [`Splitting`](affine_integrators::Splitting) for the compositions.
 ///
 /// Every piece is a Poisson map. `|S|^2 = |rho_hat|^2`, `|Vort|^2 = |tau_hat|^2`, `sum M_ab N_ab` (Casimirs of the bracket of
 /// `M` and `N`) and `sum p_a` are conserved to rounding, the orthogonality of `L` and `R` likewise; the energy, and with it `tr Z^2`,

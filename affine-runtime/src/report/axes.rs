@@ -172,7 +172,7 @@ impl Panel {
     }
 
     /// Draws grid, axes, figures and the axes' names.
-    pub(super) fn frame(&self, canvas: &mut Canvas<'_>, x_name: &str, y_name: &str) {
+    pub(super) fn frame(&self, canvas: &mut Canvas, x_name: &str, y_name: &str) {
         let Area { left, top, right, bottom } = self.area;
         let figures = Lettering::new(FIGURES, INK);
         let grid = Pen::new(GRID, 0.7);
@@ -199,7 +199,7 @@ impl Panel {
     }
 
     /// Draws a line through points, interrupted where a point has no place.
-    pub(super) fn curve(&self, canvas: &mut Canvas<'_>, points: impl Iterator<Item = (f64, f64)>, pen: Pen) {
+    pub(super) fn curve(&self, canvas: &mut Canvas, points: impl Iterator<Item = (f64, f64)>, pen: Pen) {
         let mut piece = Vec::new();
         for (x, y) in points {
             match self.spot(x, y) {

@@ -1,27 +1,16 @@
 //! Drawing on a page of SVG.
 
-use core::fmt;
-use std::io;
+use core::fmt::{Display, Write};
 
-use plotters::backend::{DrawingBackend, SVGBackend};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, RGBColor, ShapeStyle};
-
+use super::escaped;
 use super::palette::{Colour, PAPER};
 
 /// A point of the page: to the right, downward.
 pub(super) type Spot = (f64, f64);
 
-/// The backend takes whole numbers as coordinates; that many of them to one unit of the page keep curves smooth.
-const FINENESS: f64 = 20.0;
-
-/// What the backend divides font sizes by.
-const BACKEND_FONT_DIVISOR: f64 = 1.24;
-
-/// A page being drawn. What fails is remembered until [`Canvas::draw`] returns.
-pub(super) struct Canvas<'a> {
-    backend: SVGBackend<'a>,
-    failure: Option<io::Error>,
+/// A page being drawn: the document so far.
+pub(super) struct Canvas {
+    document: String,
 }
 
 /// A line's look.
@@ -48,8 +37,9 @@ impl Pen {
 pub(super) struct Lettering {
     size: f64,
     colour: Colour,
-    across: HPos,
-    down: VPos,
+    /// Where the spot is along the line, and how far the text is moved down, in the words of SVG.
+    anchor: &'static str,
+    down: &'static str,
     bold: bool,
     upward: bool,
 }
@@ -57,19 +47,19 @@ pub(super) struct Lettering {
 impl Lettering {
     /// Begins at the spot, vertically centred.
     pub(super) fn new(size: f64, colour: Colour) -> Self {
-        Self { size, colour, across: HPos::Left, down: VPos::Center, bold: false, upward: false }
+        Self { size, colour, anchor: "start", down: "0.35em", bold: false, upward: false }
     }
     /// Centred about the spot.
     pub(super) fn centred(self) -> Self {
-        Self { across: HPos::Center, ..self }
+        Self { anchor: "middle", ..self }
     }
     /// Ends at the spot.
     pub(super) fn before(self) -> Self {
-        Self { across: HPos::Right, ..self }
+        Self { anchor: "end", ..self }
     }
     /// Hangs below the spot.
     pub(super) fn below(self) -> Self {
-        Self { down: VPos::Top, ..self }
+        Self { down: "0.76em", ..self }
     }
     /// Bold.
     pub(super) fn bold(self) -> Self {
@@ -81,123 +71,163 @@ impl Lettering {
     }
 }
 
-impl Canvas<'_> {
+impl Canvas {
     /// The SVG document of a page of the given width and height.
-    pub(super) fn draw(width: u32, height: u32, paint: impl FnOnce(&mut Canvas<'_>)) -> io::Result<String> {
-        let mut document = String::new();
-        let fine = |length: u32| (f64::from(length) * FINENESS) as u32;
-        let size = (fine(width), fine(height));
-        let mut canvas = Canvas { backend: SVGBackend::with_string(&mut document, size), failure: None };
+    pub(super) fn draw(width: u32, height: u32, paint: impl FnOnce(&mut Canvas)) -> String {
+        let document = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+             fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-family=\"sans-serif\">\n"
+        );
+        let mut canvas = Canvas { document };
         canvas.rectangle((0.0, 0.0), (f64::from(width), f64::from(height)), PAPER);
         paint(&mut canvas);
-        let presented = canvas.backend.present();
-        canvas.remember(presented);
-        let failure = canvas.failure.take();
-        drop(canvas);
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(with_page_size(&document, size, (width, height))),
-        }
+        canvas.document + "</svg>\n"
     }
 
     /// A straight line.
     pub(super) fn line(&mut self, from: Spot, to: Spot, pen: Pen) {
-        let drawn = self.backend.draw_line(fine(from), fine(to), &style(pen));
-        self.remember(drawn);
+        let [x1, y1, x2, y2] = [from.0, from.1, to.0, to.1].map(Length);
+        self.element(format_args!("line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {}", Stroke(pen)));
     }
 
     /// A line through the spots, but for those nobody can tell from their neighbours; nothing for fewer than two.
     pub(super) fn polyline(&mut self, spots: impl IntoIterator<Item = Spot>, pen: Pen) {
         let spots = thinned(spots);
         if spots.len() > 1 {
-            let drawn = self.backend.draw_path(spots.into_iter().map(fine), &style(pen));
-            self.remember(drawn);
+            self.element(format_args!("polyline points=\"{}\" {}", places(spots), Stroke(pen)));
         }
     }
 
     /// A closed surface.
     pub(super) fn polygon(&mut self, corners: impl IntoIterator<Item = Spot>, colour: Colour, opacity: f64) {
-        let pen = Pen::new(colour, 0.0).opacity(opacity);
-        let drawn = self.backend.fill_polygon(corners.into_iter().map(fine), &style(pen));
-        self.remember(drawn);
+        let colour = Hue(colour);
+        self.element(format_args!(
+            "polygon points=\"{}\" fill=\"{colour}\" fill-opacity=\"{opacity}\"",
+            places(corners)
+        ));
     }
 
     /// A filled rectangle between two corners.
     pub(super) fn rectangle(&mut self, corner: Spot, opposite: Spot, colour: Colour) {
-        let drawn = self.backend.draw_rect(fine(corner), fine(opposite), &style(Pen::new(colour, 0.0)), true);
-        self.remember(drawn);
+        let ((x, y), colour) = (corner, Hue(colour));
+        let (width, height) = (opposite.0 - x, opposite.1 - y);
+        self.element(format_args!(
+            "rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{colour}\"",
+            Length(x),
+            Length(y),
+            Length(width),
+            Length(height)
+        ));
     }
 
     /// A filled disc.
     pub(super) fn disc(&mut self, centre: Spot, radius: f64, colour: Colour) {
-        let radius = (radius * FINENESS).round() as u32;
-        let drawn = self.backend.draw_circle(fine(centre), radius, &style(Pen::new(colour, 0.0)), true);
-        self.remember(drawn);
+        let (x, y, colour) = (Length(centre.0), Length(centre.1), Hue(colour));
+        self.element(format_args!("circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{colour}\""));
     }
 
-    /// One line of text.
+    /// One line of text, unless it is empty.
     pub(super) fn text(&mut self, text: &str, spot: Spot, lettering: Lettering) {
-        let weight = if lettering.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let size = lettering.size * FINENESS * BACKEND_FONT_DIVISOR;
-        let mut font = FontDesc::new(FontFamily::SansSerif, size, weight);
-        if lettering.upward {
-            font = font.transform(FontTransform::Rotate270);
+        if text.is_empty() {
+            return;
         }
-        let (red, green, blue) = lettering.colour;
-        let style = font.color(&RGBColor(red, green, blue)).pos(Pos::new(lettering.across, lettering.down));
-        let drawn = self.backend.draw_text(text, &style, fine(spot));
-        self.remember(drawn);
+        let Lettering { size, colour, anchor, down, bold, upward } = lettering;
+        let (x, y, colour) = (Length(spot.0), Length(spot.1), Hue(colour));
+        let weight = if bold { " font-weight=\"bold\"" } else { "" };
+        let turn = if upward { format!(" transform=\"rotate(270 {x} {y})\"") } else { String::new() };
+        self.write(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" dy=\"{down}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{weight} fill=\"{colour}\"{turn}>\
+             {}</text>\n",
+            escaped(text)
+        ));
     }
 
-    fn remember<E: fmt::Display>(&mut self, drawn: Result<(), E>) {
-        if let (Err(error), None) = (drawn, &self.failure) {
-            self.failure = Some(io::Error::other(error.to_string()));
-        }
+    /// An element without content: its name and attributes.
+    fn element(&mut self, content: impl Display) {
+        self.write(format_args!("<{content}/>\n"));
+    }
+
+    fn write(&mut self, content: impl Display) {
+        // Strings take whatever is written to them.
+        let _ = write!(self.document, "{content}");
+    }
+}
+
+/// A length or coordinate, to a hundredth of the page's unit, without noughts that say nothing.
+struct Length(f64);
+
+impl Display for Length {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        // No sign where nothing is left.
+        write!(f, "{}", (self.0 * 100.0).round() / 100.0 + 0.0)
+    }
+}
+
+fn places(spots: impl IntoIterator<Item = Spot>) -> String {
+    let place = |(x, y): Spot| format!("{},{}", Length(x), Length(y));
+    spots.into_iter().map(place).collect::<Vec<_>>().join(" ")
+}
+
+struct Hue(Colour);
+
+impl Display for Hue {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let (red, green, blue) = self.0;
+        write!(f, "#{red:02x}{green:02x}{blue:02x}")
+    }
+}
+
+struct Stroke(Pen);
+
+impl Display for Stroke {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Pen { colour, opacity, width } = self.0;
+        write!(f, "stroke=\"{}\" stroke-width=\"{width}\"", Hue(colour))?;
+        if opacity < 1.0 { write!(f, " stroke-opacity=\"{opacity}\"") } else { Ok(()) }
     }
 }
 
 /// A spot of a line nearer to the one before it does not show.
 const INVISIBLE: f64 = 0.25;
+/// Nor does one that is as near to the line without it.
+const FLAT: f64 = 0.05;
 
-/// The spots without those nearer than [`INVISIBLE`] to the one kept before them; the last is kept.
+/// The spots without those nearer than [`INVISIBLE`] to the one kept before them, and without those that the line does not need
+/// to stay within [`FLAT`] of all others (Douglas and Peucker, Cartographica 10 (1973) 112); the last is kept.
 fn thinned(spots: impl IntoIterator<Item = Spot>) -> Vec<Spot> {
-    let mut kept: Vec<Spot> = Vec::new();
+    let mut apart: Vec<Spot> = Vec::new();
     let mut dropped = None;
     for spot in spots {
-        match kept.last() {
+        match apart.last() {
             Some(last) if (spot.0 - last.0).hypot(spot.1 - last.1) < INVISIBLE => dropped = Some(spot),
             _ => {
-                kept.push(spot);
+                apart.push(spot);
                 dropped = None;
             }
         }
     }
-    kept.extend(dropped);
+    apart.extend(dropped);
+    let mut kept: Vec<Spot> = apart.first().copied().into_iter().collect();
+    // Pieces of the line by their ends, the first one last.
+    let mut pieces: Vec<(usize, usize)> =
+        (1..apart.len()).next_back().map(|last| (0, last)).into_iter().collect();
+    while let Some((from, to)) = pieces.pop() {
+        let off = |k: &usize| distance(apart[*k], (apart[from], apart[to]));
+        match (from + 1..to).max_by(|a, b| off(a).total_cmp(&off(b))).filter(|k| off(k) > FLAT) {
+            Some(furthest) => pieces.extend([(furthest, to), (from, furthest)]),
+            None => kept.push(apart[to]),
+        }
+    }
     kept
 }
 
-fn fine((x, y): Spot) -> (i32, i32) {
-    ((x * FINENESS).round() as i32, (y * FINENESS).round() as i32)
-}
-
-fn style(pen: Pen) -> ShapeStyle {
-    let (red, green, blue) = pen.colour;
-    ShapeStyle {
-        color: RGBAColor(red, green, blue, pen.opacity),
-        filled: true,
-        stroke_width: (pen.width * FINENESS).round() as u32,
-    }
-}
-
-/// The backend makes the page as large as its coordinates: the page keeps its own size, the coordinates stay.
-/// Lines turn their corners round.
-fn with_page_size(document: &str, fine: (u32, u32), page: (u32, u32)) -> String {
-    let written = format!("<svg width=\"{}\" height=\"{}\"", fine.0, fine.1);
-    let wanted = format!(
-        "<svg width=\"{}\" height=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
-        page.0, page.1
-    );
-    document.replacen(&written, &wanted, 1)
+/// From a spot to a stretch between two others.
+fn distance(spot: Spot, (from, to): (Spot, Spot)) -> f64 {
+    let (along, across) = ((to.0 - from.0, to.1 - from.1), (spot.0 - from.0, spot.1 - from.1));
+    let square = along.0 * along.0 + along.1 * along.1;
+    let part =
+        if square > 0.0 { ((across.0 * along.0 + across.1 * along.1) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (across.0 - part * along.0).hypot(across.1 - part * along.1)
 }
 
 #[cfg(test)]
@@ -206,11 +236,35 @@ mod tests {
 
     #[test]
     fn lines_lose_only_what_does_not_show() {
-        let dense = (0..=1000).map(|k| (f64::from(k) * 0.01, 0.0));
-        let kept = thinned(dense);
-        assert!(kept.len() < 45 && kept[0] == (0.0, 0.0) && kept[kept.len() - 1] == (10.0, 0.0));
-        assert!(kept.windows(2).all(|pair| pair[1].0 - pair[0].0 < INVISIBLE + 0.011));
+        let arc: Vec<Spot> =
+            (0..=4000).map(|k| f64::from(k) / 1000.0).map(|s| (40.0 * s.cos(), 40.0 * s.sin())).collect();
+        let kept = thinned(arc.iter().copied());
+        assert!(kept.len() < 100 && kept[0] == arc[0] && kept.last() == arc.last(), "{}", kept.len());
+        for spot in &arc {
+            let off =
+                kept.windows(2).map(|pair| distance(*spot, (pair[0], pair[1]))).fold(f64::MAX, f64::min);
+            assert!(off < FLAT + 0.01, "{off}");
+        }
+        let straight = (0..=1000).map(|k| (f64::from(k) * 0.01, 0.0));
+        assert_eq!(thinned(straight), [(0.0, 0.0), (10.0, 0.0)]);
         assert_eq!(thinned([(0.0, 0.0), (3.0, 1.0), (5.0, 5.0)]).len(), 3);
         assert_eq!(thinned([(1.0, 1.0), (1.0, 1.0)]).len(), 2, "a line without length is a point");
+        assert_eq!(thinned([(1.0, 1.0)]).len(), 1);
+        assert!(thinned([]).is_empty());
+    }
+
+    #[test]
+    fn documents_are_well_formed_and_short() {
+        let document = Canvas::draw(20, 10, |canvas| {
+            canvas.line((1.004, 2.0), (-0.001, 1.0 / 3.0), Pen::new((255, 0, 16), 1.5).opacity(0.5));
+            canvas.text("a < b & c", (5.0, 5.0), Lettering::new(8.0, (0, 0, 0)).centred().upward());
+        });
+        let lines: Vec<&str> = document.lines().collect();
+        assert_eq!(lines.len(), 5, "a page, its paper, a line, a text, the end");
+        assert_eq!(
+            lines[2],
+            "<line x1=\"1\" y1=\"2\" x2=\"0\" y2=\"0.33\" stroke=\"#ff0010\" stroke-width=\"1.5\" stroke-opacity=\"0.5\"/>"
+        );
+        assert!(lines[3].ends_with("transform=\"rotate(270 5 5)\">a &lt; b &amp; c</text>"), "{}", lines[3]);
     }
 }

@@ -1,6 +1,5 @@
 //! Curves in panels side by side: for portraits, and for errors over time.
 
-use std::io;
 use std::path::Path;
 
 use super::axes::{Area, Axis, Panel};
@@ -9,11 +8,14 @@ use super::palette::{INK, category};
 use super::save;
 use crate::error::Result;
 
-const PANEL: (f64, f64) = (400.0, 330.0);
+/// Width and height of a panel.
+pub(crate) const PANEL: (f64, f64) = (400.0, 330.0);
 const MARGIN: (f64, f64, f64) = (84.0, 56.0, 66.0);
 /// Length of a line, and size of letters, in a legend.
 const DASH: f64 = 16.0;
 const LETTER: f64 = 11.0;
+/// Of letters in the title.
+const TITLE: f64 = 15.0;
 
 /// A picture of panels side by side, each with curves.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,19 +64,18 @@ impl CurveDiagram {
     }
 
     /// The picture as an SVG document.
-    ///
-    /// # Errors
-    /// Those of the drawing library.
-    pub fn to_svg(&self) -> io::Result<String> {
+    #[must_use]
+    pub fn to_svg(&self) -> String {
         let (left, top, bottom) = MARGIN;
         let step = PANEL.0 + left;
-        let (width, height) = (step * self.panels.len() as f64 + 24.0, top + PANEL.1 + bottom);
+        let title = left + 0.6 * TITLE * self.title.chars().count() as f64;
+        let (width, height) = (title.max(step * self.panels.len() as f64) + 24.0, top + PANEL.1 + bottom);
         Canvas::draw(width.ceil() as u32, height.ceil() as u32, |canvas| {
-            canvas.text(&self.title, (left, 28.0), Lettering::new(15.0, INK).bold());
+            canvas.text(&self.title, (left, 28.0), Lettering::new(TITLE, INK).bold());
             let mut x = left;
             for (index, name) in &self.legend {
                 canvas.line((x, 43.0), (x + DASH, 43.0), Pen::new(category(*index), 2.0));
-                canvas.text(name, (x + DASH + 5.0, 47.0), Lettering::new(LETTER, INK));
+                canvas.text(name, (x + DASH + 5.0, 43.0), Lettering::new(LETTER, INK));
                 x += DASH + 19.0 + 0.55 * LETTER * name.chars().count() as f64;
             }
             for (index, panel) in self.panels.iter().enumerate() {
@@ -90,12 +91,12 @@ impl CurveDiagram {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
-        save(path.as_ref(), self.to_svg())
+        save(path.as_ref(), &self.to_svg())
     }
 }
 
 impl CurvePanel {
-    fn draw(&self, canvas: &mut Canvas<'_>, area: Area) {
+    fn draw(&self, canvas: &mut Canvas, area: Area) {
         let points = || self.curves.iter().flat_map(|curve| curve.points.iter());
         let inside = |y: f64| self.range.is_none_or(|(low, high)| low <= y && y <= high);
         let x = Axis::linear(points().map(|point| point.0), 5);

@@ -23,8 +23,8 @@ pub(super) fn share_above<const N: usize, M: Model<N>>(
     if tolerance < LEAST {
         return None;
     }
-    // For the inertias of momenta, which a multiplier does not change.
-    let slope = |t: f64, y: &M::Full<f64>| model.free_equations(t, y);
+    // For the inertias of momenta.
+    let slope = |t: f64, y: &M::Full<f64>| model.hamilton_equations(t, y);
     let (t0, start) = steps.start();
     let full = model.flatten(start);
     let (error_norm, _) = ErrorNorm::probed(M::DESCRIPTION.full, &slope, (t0, &full, &slope(t0, &full)));

@@ -11,11 +11,17 @@ const parts = data.t.map(part);
 const outputs = data.outputs.map(part);
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a8a8a", "#b0a000"];
 const SECONDS = 12;
+// Axes of the body: colours, and how far they come out of the ball, whose radius is 1.
+const AXES = ["#e67300", "#009e73", "#cc79a7"];
+const AXIS = 1.3;
 
-let at = 0;
-let playing = false;
-let azimuth = 35 * Math.PI / 180;
-let elevation = 25 * Math.PI / 180;
+let at = 0, playing = false, then = null;
+let azimuth = 35 * Math.PI / 180, elevation = 25 * Math.PI / 180;
+
+const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
+const most = (values) => values.reduce((a, b) => Math.max(a, b), -Infinity);
+// What is no number is null.
+const some = (value) => (value === null ? NaN : value);
 
 // The frame before a part of the run.
 function before(s) {
@@ -53,15 +59,12 @@ function view() {
 // Middle and radius of a ball that holds all bodies of the run; radius of the largest alone, its stretch.
 function extent() {
   const centres = parts.map((s) => body(s).x);
-  const middle = [0, 1, 2].map((i) => {
-    const values = centres.map((x) => x[i]);
-    return (values.reduce((a, b) => Math.min(a, b)) + values.reduce((a, b) => Math.max(a, b))) / 2;
-  });
+  const middle = [0, 1, 2].map((i) => centres.map((x) => x[i])).map((values) => (least(values) + most(values)) / 2);
   let radius = 0, largest = 0;
   centres.forEach((x, k) => {
     const stretch = Math.exp(data.stretches[k][0]);
     largest = Math.max(largest, stretch);
-    radius = Math.max(radius, Math.hypot(...x.map((value, i) => value - middle[i])) + stretch);
+    radius = Math.max(radius, Math.hypot(...x.map((value, i) => value - middle[i])) + AXIS * stretch);
   });
   return { middle, radius, largest };
 }
@@ -69,8 +72,7 @@ function extent() {
 const VERTEX = `#version 300 es
 in vec3 a;
 uniform mat3 phi, normals, view;
-uniform vec3 x, middle;
-uniform vec3 scale;
+uniform vec3 x, middle, scale;
 out vec3 point, normal;
 void main() {
   vec3 y = view * (x + phi * a - middle);
@@ -89,8 +91,7 @@ void main() {
   if (kind == 2) { colour = vec4(ink, 1.0); return; }
   float side = kind == 0 ? point.x * point.y * point.z : point.x * point.y;
   vec3 base = side > 0.0 ? vec3(0.0, 0.45, 0.70) : vec3(0.45, 0.76, 0.94);
-  bool mark = kind == 0 ? point.x > 0.97 : point.x > 0.0 && abs(point.y) < 0.03;
-  if (mark) base = vec3(0.90, 0.45, 0.0);
+  if (kind == 0 ? point.x > 0.97 : point.x > 0.0 && abs(point.y) < 0.03) base = vec3(0.90, 0.45, 0.0);
   float light = kind == 0 ? 0.35 + 0.65 * max(dot(normalize(normal), normalize(vec3(0.3, 0.6, 0.8))), 0.0) : 1.0;
   colour = vec4(base * light, 1.0);
 }`;
@@ -127,7 +128,7 @@ function painter() {
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
   gl.useProgram(program);
-  gl.enable(gl.DEPTH_TEST);
+  gl.depthFunc(gl.LEQUAL);
   gl.enableVertexAttribArray(0);
   const place = (name) => gl.getUniformLocation(program, name);
   const matrix = (name, rows) => gl.uniformMatrix3fv(place(name), true, rows);
@@ -138,98 +139,98 @@ function painter() {
     gl.bufferData(target, content, gl.STATIC_DRAW);
     return made;
   };
+  const use = (made) => { gl.bindBuffer(gl.ARRAY_BUFFER, made); gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0); };
   const surface = buffer(gl.ARRAY_BUFFER, points);
   buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
+  const axes = buffer(gl.ARRAY_BUFFER, new Float32Array([0, 0, 0, AXIS, 0, 0, 0, 0, 0, 0, AXIS, 0, 0, 0, 0, 0, 0, AXIS]));
   const { middle, radius, largest } = extent();
   // Counted from the middle, so that single precision is enough far from the origin.
   const centre = (x) => x.map((value, i) => value - middle[i]);
   const trail = buffer(gl.ARRAY_BUFFER, new Float32Array(parts.flatMap((s) => centre(body(s).x))));
-  const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
   const travels = data.x.some((x) => x.some((value, i) => value !== data.x[0][i]));
 
   return () => {
-    const { k, x, phi } = body(at);
-    const follow = element("follow").checked;
-    const reach = 1.05 * (follow ? largest : radius);
+    const { k, x, phi } = body(at), follow = element("follow").checked;
+    const reach = 1.05 * (follow ? AXIS * largest : radius);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const side = Math.min(canvas.width, canvas.height);
-    gl.uniform3f(place("scale"), side / canvas.width / reach, side / canvas.height / reach, 0.5 / (radius + largest));
+    gl.uniform3f(place("scale"), side / canvas.width / reach, side / canvas.height / reach, 0.4 / (radius + largest));
     matrix("view", view());
     gl.uniform3fv(place("middle"), follow ? centre(x) : [0, 0, 0]);
     gl.uniform1i(place("kind"), planar ? 1 : 0);
     gl.uniform3fv(place("x"), centre(x));
     matrix("phi", phi);
     matrix("normals", cofactors(phi));
-    gl.bindBuffer(gl.ARRAY_BUFFER, surface);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+    gl.enable(gl.DEPTH_TEST);
+    use(surface);
     gl.drawElements(gl.TRIANGLES, triangles.length, gl.UNSIGNED_SHORT, 0);
-    if (!travels) return;
     gl.uniform1i(place("kind"), 2);
+    const lines = (ink, mode, first, count) => {
+      gl.uniform3f(place("ink"), ...[1, 3, 5].map((i) => parseInt(ink.slice(i, i + 2), 16) / 255));
+      gl.drawArrays(mode, first, count);
+    };
+    use(axes);
+    for (let a = 0; a < data.n && element("axes").checked; a++) lines(AXES[a], gl.LINES, 2 * a, 2);
+    if (!travels) return;
     gl.uniform3fv(place("x"), [0, 0, 0]);
-    matrix("phi", identity);
-    gl.bindBuffer(gl.ARRAY_BUFFER, trail);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
-    gl.uniform3f(place("ink"), 0.85, 0.37, 0.0);
-    gl.drawArrays(gl.LINE_STRIP, 0, k + 1);
-    gl.uniform3f(place("ink"), 0.55, 0.55, 0.55);
-    gl.drawArrays(gl.LINE_STRIP, k, last - k + 1);
+    matrix("phi", [1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    gl.disable(gl.DEPTH_TEST);
+    use(trail);
+    lines("#d95f00", gl.LINE_STRIP, 0, k + 1);
+    lines("#8c8c8c", gl.LINE_STRIP, k, last - k + 1);
   };
+}
+
+// A line of a legend.
+function explain(id, text, colour) {
+  const item = document.createElement("li"), stroke = document.createElement("span");
+  stroke.style.color = colour;
+  stroke.textContent = "\u2501 ";
+  item.append(stroke, text);
+  element(id + "-legend").append(item);
 }
 
 // Curves over the run, with a cursor and marks of events; `series` are `{ name, at, values }`.
 function plotter(id, series, label) {
   const canvas = element(id), pen = canvas.getContext("2d");
   const finite = series.flatMap((one) => one.values).filter(Number.isFinite);
-  let low = finite.reduce((a, b) => Math.min(a, b), Infinity), high = finite.reduce((a, b) => Math.max(a, b), -Infinity);
-  if (!(low < high)) [low, high] = Number.isFinite(low) ? [low - 1, low + 1] : [-1, 1];
-  series.forEach((one, i) => {
-    const item = document.createElement("li"), stroke = document.createElement("span");
-    stroke.style.color = COLOURS[i % COLOURS.length];
-    stroke.textContent = "\u2501 ";
-    item.append(stroke, one.name);
-    element(id + "-legend").append(item);
-  });
+  let low = least(finite), high = most(finite);
+  const size = finite.length ? Math.max(-low, high) : 0;
+  // What changes by rounding alone is drawn as what stays.
+  if (!(high - low > 1e-9 * size)) [low, high] = size ? [low - Math.abs(low), low + Math.abs(low)] : [-1, 1];
+  canvas.hidden = canvas.previousElementSibling.hidden = !series.length;
+  series.forEach((one, i) => explain(id, one.name, COLOURS[i % COLOURS.length]));
   const left = 58, edge = 14;
-  const scrub = (event) => {
-    if (event.type === "pointermove" && !event.buttons) return;
-    go((event.offsetX - left) / (canvas.clientWidth - left - edge));
-  };
-  canvas.addEventListener("pointerdown", scrub);
-  canvas.addEventListener("pointermove", scrub);
+  const scrub = (event) => event.buttons && go((event.offsetX - left) / (canvas.clientWidth - left - edge));
+  for (const kind of ["pointerdown", "pointermove"]) canvas.addEventListener(kind, scrub);
   return () => {
-    const ratio = canvas.width / canvas.clientWidth || 1;
-    const width = canvas.clientWidth, height = canvas.clientHeight;
+    const width = canvas.clientWidth, height = canvas.clientHeight, ratio = canvas.width / width || 1;
     const across = (s) => left + s * (width - left - edge);
     const up = (y) => height - 24 - (y - low) / (high - low) * (height - 24 - edge);
     const style = getComputedStyle(document.body);
+    const write = (text, align, x, y) => { pen.textAlign = align; pen.fillText(text, x, y); };
     const line = (x0, y0, x1, y1) => { pen.beginPath(); pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); };
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
-    pen.font = "12px system-ui, sans-serif";
-    pen.fillStyle = style.color;
-    pen.lineWidth = 1;
-    pen.strokeStyle = style.getPropertyValue("--faint");
+    const faint = style.getPropertyValue("--faint");
+    Object.assign(pen, { font: "12px system-ui, sans-serif", fillStyle: style.color, strokeStyle: faint, lineWidth: 1 });
     for (const y of [low, (low + high) / 2, high]) {
       line(left, up(y), width - edge, up(y));
-      pen.textAlign = "right";
-      pen.fillText(label(y), left - 6, up(y) + 4);
+      write(label(y), "right", left - 6, up(y) + 4);
     }
     for (const event of data.events) line(across(part(event.t)), edge, across(part(event.t)), height - 24);
-    pen.textAlign = "left";
-    pen.fillText(brief(data.t[0]), left, height - 8);
-    pen.textAlign = "right";
-    pen.fillText("t = " + brief(data.t[last]), width - edge, height - 8);
+    write(brief(data.t[0]), "left", left, height - 8);
+    write("t = " + brief(data.t[last]), "right", width - edge, height - 8);
     pen.lineWidth = 1.6;
     series.forEach((one, i) => {
       pen.strokeStyle = COLOURS[i % COLOURS.length];
       pen.beginPath();
       let drawn = false;
       one.values.forEach((value, k) => {
-        if (!Number.isFinite(value)) { drawn = false; return; }
-        if (drawn) pen.lineTo(across(one.at[k]), up(value)); else pen.moveTo(across(one.at[k]), up(value));
-        drawn = true;
+        const is = Number.isFinite(value);
+        if (is) pen[drawn ? "lineTo" : "moveTo"](across(one.at[k]), up(value));
+        drawn = is;
       });
       pen.stroke();
     });
@@ -239,15 +240,16 @@ function plotter(id, series, label) {
 }
 
 const brief = (value) => String(Number(value.toPrecision(5)));
-const LEAST = 1e-17;
-const drifts = data.drifts.map((drift) => {
-  let worst = LEAST;
-  const values = drift.values.map((value) => Math.log10(worst = Math.max(worst, value === null ? NaN : value)));
-  return { name: drift.symbol, at: outputs, values };
+const drifts = data.drifts.map(({ symbol, values }) => {
+  let worst = 1e-17;
+  return { name: symbol, at: outputs, values: values.map((value) => Math.log10(worst = Math.max(worst, some(value)))) };
 });
-const stretches = Array.from({ length: data.n }, (_, a) => ({ name: "q" + (a + 1), at: parts,
-  values: data.stretches.map((all) => (all[a] === null ? NaN : all[a])) }));
+const axes = Array.from({ length: data.n }, (_, a) => a);
+const stretches = axes.map((a) => ({ name: "q" + (a + 1), at: parts, values: data.stretches.map((all) => some(all[a])) }));
+const energies = data.energies.map((energy) => ({ name: energy.symbol, at: outputs, values: energy.values.map(some) }));
+for (const a of axes) explain("axes", "axis " + (a + 1) + " of the body", AXES[a]);
 const painters = [painter(), plotter("stretches", stretches, (y) => brief(Number(y.toFixed(3)))),
+  plotter("energies", energies, (y) => String(Number(y.toPrecision(3)))),
   plotter("drifts", drifts, (y) => "1e" + y.toFixed(1))];
 
 function draw() {
@@ -258,7 +260,6 @@ function draw() {
 }
 function go(s) { at = Math.min(Math.max(s, 0), 1); draw(); }
 function play(on) { playing = on; if (on && at >= 1) at = 0; draw(); if (on) requestAnimationFrame(tick); }
-let then = null;
 function tick(when) {
   if (!playing) { then = null; return; }
   if (then !== null) at += (when - then) / 1000 / SECONDS * Number(element("speed").value);
@@ -270,29 +271,28 @@ function tick(when) {
 
 element("play").addEventListener("click", () => play(!playing));
 element("time").addEventListener("input", (event) => go(Number(event.target.value)));
-element("follow").addEventListener("change", draw);
+for (const id of ["follow", "axes"]) element(id).addEventListener("change", draw);
+function turn(across, up) {
+  [azimuth, elevation] = [azimuth + across, Math.min(Math.max(elevation + up, -1.55), 1.55)];
+  draw();
+}
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
   const k = before(at);
   // From between two frames the frame before is one step back.
   const back = parts[Math.max(at > parts[k] ? k : k - 1, 0)];
-  const keys = { " ": () => play(!playing), ArrowRight: () => go(parts[Math.min(k + 1, last)]),
-    ArrowLeft: () => go(back), Home: () => go(0), End: () => go(1) };
+  const keys = event.shiftKey ? { ArrowRight: () => turn(0.1, 0), ArrowLeft: () => turn(-0.1, 0),
+    ArrowUp: () => turn(0, 0.1), ArrowDown: () => turn(0, -0.1) } : { " ": () => play(!playing), Home: () => go(0),
+    ArrowRight: () => go(parts[Math.min(k + 1, last)]), ArrowLeft: () => go(back), End: () => go(1) };
   if (!(event.key in keys) || (event.key === " " && ["checkbox", "button"].includes(event.target.type))) return;
   event.preventDefault();
   keys[event.key]();
 });
-element("scene").addEventListener("pointermove", (event) => {
-  if (!event.buttons || planar) return;
-  azimuth -= event.movementX * 0.008;
-  elevation = Math.min(Math.max(elevation + event.movementY * 0.008, -1.55), 1.55);
-  draw();
-});
+const dragged = (event) => event.buttons && turn(-event.movementX * 0.008, event.movementY * 0.008);
+if (planar) element("scene").style.touchAction = "auto"; else element("scene").addEventListener("pointermove", dragged);
 const resized = new ResizeObserver((entries) => {
-  for (const { target } of entries) {
-    target.width = Math.max(1, Math.round(target.clientWidth * devicePixelRatio));
-    target.height = Math.max(1, Math.round(target.clientHeight * devicePixelRatio));
-  }
+  const pixels = (length) => Math.max(1, Math.round(length * devicePixelRatio));
+  for (const { target } of entries) [target.width, target.height] = [target.clientWidth, target.clientHeight].map(pixels);
   draw();
 });
 for (const canvas of document.querySelectorAll("canvas")) resized.observe(canvas);

@@ -1,6 +1,5 @@
 //! A trajectory as a picture.
 
-use std::io;
 use std::path::Path;
 
 use super::axes::{Area, Axis, Panel, brief_time};
@@ -20,6 +19,8 @@ const HEIGHT: u32 = 860;
 const SCENE: Area = Area { left: 84.0, top: 84.0, right: 610.0, bottom: 470.0 };
 const STRETCHES: Area = Area { left: 84.0, top: 508.0, right: 610.0, bottom: 638.0 };
 const DRIFTS: Area = Area { left: 84.0, top: 682.0, right: 610.0, bottom: 812.0 };
+/// Of the path of the centre, where the bodies stand side by side.
+const PATH: Area = Area { left: 644.0, top: 234.0, right: 844.0, bottom: 334.0 };
 /// Origin of the axes of space.
 const AXES: Spot = (690.0, 410.0);
 /// Where the legends begin, right of everything.
@@ -38,17 +39,15 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// orthonormal bases, where lengths are those of the metrics.
     ///
     /// In three dimensions the view is orthographic, from azimuth 35 and elevation 25 degrees, and the lines on
-    /// the body are the images of the great circles in its coordinate planes, where the eye sees them; bodies
-    /// whose centre stays are set side by side in reading order. In two dimensions the line on the body is its
-    /// first axis. Lines join the outputs of the trajectory: ask for as many as smooth lines need.
-    ///
-    /// # Errors
-    /// Those of the drawing library.
-    pub fn to_svg(&self) -> io::Result<String> {
+    /// the body are the images of the great circles in its coordinate planes, where the eye sees them. In two dimensions the
+    /// line on the body is its first axis. Bodies whose centre stays are set side by side in reading order, and so are bodies of
+    /// the plane that would cover one another, with the path beside them. Lines join the outputs of the trajectory: ask for as many as smooth lines need.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
         let samples = Samples::of(self);
         Canvas::draw(WIDTH, HEIGHT, |canvas| {
             self.caption(canvas);
-            samples.scene().paint(canvas, &SCENE, AXES);
+            samples.scene().paint(canvas, &SCENE, &PATH, AXES);
             samples.time_legend(canvas);
             samples.paint_stretches(canvas);
             self.paint_drifts(canvas, &samples);
@@ -60,15 +59,15 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
-        save(path.as_ref(), self.to_svg())
+        save(path.as_ref(), &self.to_svg())
     }
 
-    fn caption(&self, canvas: &mut Canvas<'_>) {
+    fn caption(&self, canvas: &mut Canvas) {
         canvas.text(self.description().name, (84.0, 30.0), Lettering::new(16.0, INK).bold());
         canvas.text(&summary(self), (84.0, 52.0), Lettering::new(SMALL, INK));
     }
 
-    fn paint_drifts(&self, canvas: &mut Canvas<'_>, samples: &Samples<N>) {
+    fn paint_drifts(&self, canvas: &mut Canvas, samples: &Samples<N>) {
         let history = History::of(self);
         let panel = Panel { area: DRIFTS, x: samples.time_axis(), y: history.axis() };
         panel.frame(canvas, "t", "relative drift");
@@ -100,7 +99,7 @@ pub(super) fn summary<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> St
 }
 
 /// A stroke of the colour with a text; where the next line begins.
-fn legend_line(canvas: &mut Canvas<'_>, spot: Spot, colour: (u8, u8, u8), text: &str) -> Spot {
+fn legend_line(canvas: &mut Canvas, spot: Spot, colour: (u8, u8, u8), text: &str) -> Spot {
     canvas.line(spot, (spot.0 + 18.0, spot.1), Pen::new(colour, 2.4));
     canvas.text(text, (spot.0 + 26.0, spot.1), Lettering::new(SMALL - 1.0, INK));
     (spot.0, spot.1 + LEGEND_LINE)
@@ -113,17 +112,13 @@ pub(super) struct Samples<const N: usize> {
 
 impl<const N: usize> Samples<N> {
     pub(super) fn of<P: Phase<N>>(trajectory: &Trajectory<N, P>) -> Self {
-        let (start, end) = (trajectory.start(), trajectory.end());
-        let span = end.0 - start.0;
-        let mut bodies: Vec<(f64, Body<N>)> = Vec::with_capacity(trajectory.len() + 2);
-        for (t, point) in core::iter::once(start).chain(trajectory.iter()).chain([end]) {
-            if bodies.last().is_none_or(|last| last.0 != t) {
-                let fraction = if span == 0.0 { 0.0 } else { (t - start.0) / span };
-                let point = trajectory.orthonormal(point);
-                bodies.push((t, Body { x: point.x(), phi: *point.phi(), fraction }));
-            }
-        }
-        Self { bodies }
+        let (start, end) = (trajectory.start().0, trajectory.end().0);
+        let span = end - start;
+        let body = |(t, point): (f64, P::InOrthonormal)| {
+            let fraction = if span == 0.0 { 0.0 } else { (t - start) / span };
+            (t, Body { x: point.x(), phi: *point.phi(), fraction })
+        };
+        Self { bodies: trajectory.samples().into_iter().map(body).collect() }
     }
 
     /// The bodies drawn: those nearest to equally spaced times.
@@ -154,7 +149,7 @@ impl<const N: usize> Samples<N> {
         Axis::tight(t0.min(t_end), t0.max(t_end), 10)
     }
 
-    fn time_legend(&self, canvas: &mut Canvas<'_>) {
+    fn time_legend(&self, canvas: &mut Canvas) {
         let (t0, t_end) = self.ends();
         let mut spot = (LEGEND, SCENE.top + 6.0);
         for (t, body) in self.shown() {
@@ -165,7 +160,7 @@ impl<const N: usize> Samples<N> {
         }
     }
 
-    fn paint_stretches(&self, canvas: &mut Canvas<'_>) {
+    fn paint_stretches(&self, canvas: &mut Canvas) {
         let curves: Vec<(f64, Vec<f64>)> =
             self.bodies.iter().map(|(t, body)| (*t, log_stretches(&body.phi))).collect();
         let values = curves.iter().flat_map(|(_, stretches)| stretches.iter().copied());

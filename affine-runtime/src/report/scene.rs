@@ -55,21 +55,24 @@ impl Fit {
 }
 
 impl<const N: usize> Scene<N> {
-    /// Draws bodies and path into the area, and the axes of space at a spot. Three-dimensional bodies that stay
-    /// where they are stand side by side, in reading order: on top of one another they hide what they do.
-    pub(super) fn paint(&self, canvas: &mut Canvas<'_>, area: &Area, axes: Spot) {
+    /// Draws bodies and path into the area, and the axes of space at a spot. Bodies that stay where they are stand side by side,
+    /// in reading order: on top of one another they hide what they do. So do bodies of the plane that would cover one another,
+    /// and their path has an area of its own.
+    pub(super) fn paint(&self, canvas: &mut Canvas, area: &Area, path_alone: &Area, axes: Spot) {
         let view = View::<N>::new();
-        let mut outlines: Vec<Vec<Planar>> = self.bodies.iter().map(|body| view.outline(&body.phi)).collect();
-        let places = if N == 3 && self.path.is_empty() {
-            side_by_side(&outlines)
-        } else {
-            self.bodies.iter().map(|body| view.project(&body.x)).collect()
-        };
-        for (outline, &place) in outlines.iter_mut().zip(&places) {
-            *outline = shifted(core::mem::take(outline), place).collect();
-        }
+        let outlines: Vec<Vec<Planar>> = self.bodies.iter().map(|body| view.outline(&body.phi)).collect();
+        let centres: Vec<Planar> = self.bodies.iter().map(|body| view.project(&body.x)).collect();
+        let is_apart = self.path.is_empty() || (N == 2 && cover(&outlines, &centres));
+        let places = if is_apart { side_by_side(&outlines) } else { centres };
+        let outlines: Vec<Vec<Planar>> = outlines
+            .into_iter()
+            .zip(&places)
+            .map(|(outline, place)| shifted(outline, *place).collect())
+            .collect();
         let path: Vec<(f64, Planar)> = self.path.iter().map(|(s, x)| (*s, view.project(x))).collect();
-        let fit = Fit::new(outlines.iter().flatten().copied().chain(path.iter().map(|p| p.1)), area);
+        let along = || path.iter().map(|point| point.1);
+        let with_path = along().filter(|_| !is_apart);
+        let fit = Fit::new(outlines.iter().flatten().copied().chain(with_path), area);
 
         for ((body, outline), &place) in self.bodies.iter().zip(&outlines).zip(&places) {
             let colour = early_to_late(body.fraction);
@@ -81,15 +84,34 @@ impl<const N: usize> Scene<N> {
             }
             canvas.polyline(outline.iter().chain(outline.first()).copied(), Pen::new(colour, 1.6));
         }
-        for (fraction, piece) in coloured_pieces(&path) {
-            let pen = Pen::new(early_to_late(fraction), 1.6);
-            canvas.polyline(piece.iter().map(|&point| fit.spot(point)), pen);
-        }
-        for body in self.bodies.iter().filter(|_| !self.path.is_empty()) {
-            canvas.disc(fit.spot(view.project(&body.x)), 3.0, early_to_late(body.fraction));
+        let fit_of_path = if is_apart { Fit::new(along(), path_alone) } else { fit };
+        self.paint_path(canvas, &view, &path, &fit_of_path);
+        if is_apart && !path.is_empty() {
+            let heading = (path_alone.left, path_alone.top - 14.0);
+            canvas.text("path of the centre", heading, Lettering::new(11.0, INK));
         }
         axes_of_space(&view, canvas, axes, fit.scale);
     }
+
+    fn paint_path(&self, canvas: &mut Canvas, view: &View<N>, path: &[(f64, Planar)], fit: &Fit) {
+        for (fraction, piece) in coloured_pieces(path) {
+            let pen = Pen::new(early_to_late(fraction), 1.6);
+            canvas.polyline(piece.iter().map(|&point| fit.spot(point)), pen);
+        }
+        for body in self.bodies.iter().filter(|_| !path.is_empty()) {
+            canvas.disc(fit.spot(view.project(&body.x)), 3.0, early_to_late(body.fraction));
+        }
+    }
+}
+
+/// Do bodies with these outlines cover one another about these centres? By the discs that hold them.
+fn cover(outlines: &[Vec<Planar>], centres: &[Planar]) -> bool {
+    let reach = |outline: &Vec<Planar>| outline.iter().map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    let discs: Vec<(f64, Planar)> = outlines.iter().map(reach).zip(centres.iter().copied()).collect();
+    discs
+        .iter()
+        .enumerate()
+        .any(|(k, (own, (x, y)))| discs[..k].iter().any(|(other, (u, v))| (x - u).hypot(y - v) < own + other))
 }
 
 fn shifted(points: Vec<Planar>, by: Planar) -> impl Iterator<Item = Planar> {
@@ -133,7 +155,7 @@ const ARROW: f64 = 48.0;
 
 /// Arrows along the axes of space from a spot, of one length in space that is a round number: the scale of the
 /// picture.
-fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas<'_>, origin: Spot, scale: f64) {
+fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas, origin: Spot, scale: f64) {
     let length = round_length(ARROW / scale);
     let (pen, letters) = (Pen::new(INK, 1.1), Lettering::new(11.0, INK).centred());
     for axis in 0..N {
@@ -151,7 +173,7 @@ fn axes_of_space<const N: usize>(view: &View<N>, canvas: &mut Canvas<'_>, origin
     canvas.text(&caption, (origin.0 - ARROW, origin.1 + ARROW), Lettering::new(11.0, INK));
 }
 
-fn arrow_head(canvas: &mut Canvas<'_>, from: Spot, tip: Spot, colour: Colour) {
+fn arrow_head(canvas: &mut Canvas, from: Spot, tip: Spot, colour: Colour) {
     let (dx, dy) = (tip.0 - from.0, tip.1 - from.1);
     let reach = dx.hypot(dy);
     let (ux, uy) = (dx / reach, dy / reach);

@@ -157,7 +157,7 @@ impl<'a, const N: usize, M: Model<N>> Stress<'a, N, M> {
         Self { within: tolerances, ..self }
     }
 
-    /// Largest number of steps of every run; [`DEFAULT_MAX_STEPS`] if not set.
+    /// Largest number of steps of every run; a million if not set.
     #[must_use]
     pub fn max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }

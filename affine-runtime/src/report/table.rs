@@ -40,7 +40,7 @@ impl WorkPrecisionReport {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        save(path.as_ref(), Ok(self.to_csv()))
+        save(path.as_ref(), &self.to_csv())
     }
 
     fn fields(&self, row: &Row) -> Vec<String> {

@@ -388,7 +388,7 @@ impl WorkPrecisionReport {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_svg(&self, path: impl AsRef<std::path::Path>) -> Result<()> {
-        save(path.as_ref(), self.diagram().to_svg())
+        save(path.as_ref(), &self.diagram().to_svg())
     }
 }
 

@@ -1,5 +1,8 @@
 //! Changes of the point that accumulate at a time.
 
+#[cfg(feature = "csv")]
+use crate::inner::Tape;
+
 /// Part of the time that a sequence of changes has taken which may be left of it where it is taken to accumulate: bounces of
 /// that part are as high as a rounding of where the sequence began.
 const LEFT: f64 = 1.0 / ((1 << 24) as f64);
@@ -33,6 +36,19 @@ impl Default for Changes {
 }
 
 impl Changes {
+    /// Hands over, or takes back, what is known.
+    #[cfg(feature = "csv")]
+    pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
+        let Self { count, at_one_time, in_step, past } = self;
+        tape.bits(count);
+        for number in [at_one_time, in_step] {
+            let mut bits = u64::from(*number);
+            tape.bits(&mut bits);
+            *number = bits as u32;
+        }
+        past.iter_mut().for_each(|bits| tape.bits(bits));
+    }
+
     /// The event changes the point once more, where its function comes to zero or jumps over it; the time at which it
     /// accumulates, if it does.
     ///

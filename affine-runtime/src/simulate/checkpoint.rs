@@ -1,8 +1,11 @@
 //! Where a run was interrupted, as numbers from which it goes on with the same bits.
 
+#[cfg(feature = "csv")]
+mod line;
+
 use super::standing::Memory;
 use crate::inner::Tape;
-use crate::integrate::Statistics;
+use crate::integrate::{FusedArithmetic, Statistics};
 use crate::state::Phase;
 
 /// The state of an interrupted run between two steps, and what has been done of the step after.
@@ -14,8 +17,8 @@ use crate::state::Phase;
 pub struct Checkpoint {
     /// What the run is known by: [`fingerprint`](super::fingerprint::fingerprint).
     pub(super) run: String,
-    /// The class of arithmetic of the machine, [`is_fused`](crate::integrate::is_fused).
-    pub(super) fused: bool,
+    /// The arithmetic of the machine.
+    pub(super) fused: FusedArithmetic,
     pub(super) place: Place,
 }
 

@@ -12,11 +12,11 @@ use crate::state::Phase;
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: above it they cost more at
 /// equal errors on some benchmark problem. On P6 they cost less from an error of 1e-8 on, on P2 from 1e-10, on P8 and P1 from
 /// 1e-11, on P2r, P3 and P5 from 1e-12 and on P7 from 1e-13: `cargo run --release --example work_precision`.
-pub const TAYLOR_TOLERANCE: f64 = 1e-12;
+pub(super) const TAYLOR_TOLERANCE: f64 = 1e-12;
 /// [`Method::Automatic`] takes the Nystrom method of order 12 from this tolerance down, and that of order 8 above. On P3
 /// order 8 needs less time down to an error of 1e-4, where order 12 begins to, and at a given tolerance errs ten times
 /// less.
-pub const NYSTROM_TOLERANCE: f64 = 1e-3;
+pub(super) const NYSTROM_TOLERANCE: f64 = 1e-3;
 
 /// The integrator to take, noted with what was missing for a better one.
 pub(super) fn choose<const N: usize, M: Model<N>>(

@@ -31,14 +31,19 @@ pub(super) struct ClosedForm<const N: usize, P> {
 }
 
 impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
-    pub(super) fn begin(geodesic: Geodesic<N>, start: (f64, P), t_end: f64) -> Self {
-        let collapse = geodesic.collapse(t_end, start.1.phi());
+    pub(super) fn begin(
+        model: &dyn Mechanics<N, P>,
+        geodesic: Geodesic<N>,
+        start: (f64, P),
+        t_end: f64,
+    ) -> Self {
+        let collapse = model.collapse(&geodesic, t_end, start.1.phi());
         Self { geodesic, start, t_end, collapse }
     }
 
     /// The same motion to another end.
-    pub(super) fn aimed(&self, t_end: f64) -> Self {
-        Self::begin(self.geodesic, self.start, t_end)
+    pub(super) fn aimed(&self, model: &dyn Mechanics<N, P>, t_end: f64) -> Self {
+        Self::begin(model, self.geodesic, self.start, t_end)
     }
 
     /// The phase point at a time.
@@ -82,7 +87,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         computation.no_whirl =
             matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
         let model = self.model;
-        let motion = ClosedForm::begin(*geodesic, (t0, *start), t_end);
+        let motion = ClosedForm::begin(model, *geodesic, (t0, *start), t_end);
         let at = |t| motion.at(model, t);
         let (rate, collapse) = (geodesic.rate(), motion.collapse);
         // Events behind a collapse do not happen; the collapse may be one.

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::event::Word;
 use super::power_balance::PowerBalance;
 use super::trajectory::Trajectory;
 use crate::conserved::{Components, evaluate, scale};
@@ -12,23 +13,26 @@ use crate::state::Phase;
 /// Drifts of all conserved quantities over the outputs of a trajectory; displays as a table, with the balance of
 /// energy where forces change it.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conservation {
-    model: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::inner::word"))]
+    model: Word,
     drifts: Vec<Drift>,
     balance: Option<PowerBalance>,
 }
 
 /// Drift of one quantity `Q`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drift {
     /// The quantity.
     pub quantity: Conserved,
     /// Largest `|Q(t) - Q(t0)|` over the outputs and the end.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub absolute: f64,
     /// The size it is held against: the largest, over the same points, of what the quantity is made of (see
     /// [`scale`](crate::conserved::scale)); for the energy, of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub scale: f64,
 }
 

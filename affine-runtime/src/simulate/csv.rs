@@ -1,14 +1,14 @@
 //! Tables and trajectories as comma-separated values.
 
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
 use csv::Writer;
 
+use super::format::Format;
 use super::table::{Columns, Table};
 use super::trajectory::Trajectory;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::state::Phase;
 
 impl Table {
@@ -30,11 +30,9 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// Writes the outputs to a file, as [`csv`](Self::csv) does.
     ///
     /// # Errors
-    /// [`Error::File`] with path and kind of the failure.
+    /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
-        let written = File::create(path).and_then(|file| self.csv(file));
-        written.map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
+        self.table().save(path, Format::Csv)
     }
 
     /// Writes the [`table`](Self::table) of the outputs.

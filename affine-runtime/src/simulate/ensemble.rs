@@ -70,23 +70,24 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// a potential that does not have a value everywhere.
 ///
 /// Starts are taken from their iterator as they are needed, some thousand at a time, and are not kept: memory does not grow
-/// with their number, but for what a program keeps. With the feature `parallel` bodies are spread over the threads of the
+/// with their number, but for what a program keeps. An ensemble may be built in one thread and run in another: iterator, events and
+/// callbacks are `Send`. With the feature `parallel` bodies are spread over the threads of the
 /// current `rayon` pool.
 pub struct Ensemble<'a, const N: usize, H: Handle<N>> {
-    starts: Box<dyn Iterator<Item = Start<N, H>> + 'a>,
+    starts: Box<dyn Iterator<Item = Start<N, H>> + Send + 'a>,
     plan: Plan,
     events: Box<Events<'a, N, PointOf<N, H>>>,
-    progress: Box<dyn Fn(u64) + Sync + 'a>,
+    progress: Box<dyn Fn(u64) + Send + Sync + 'a>,
     shard: (u64, u64),
 }
 
-impl<'a, const N: usize, M: Model<N>> Ensemble<'a, N, &'a M> {
+impl<'a, const N: usize, M: Model<N> + Sync> Ensemble<'a, N, &'a M> {
     /// Bodies of `model` from the phase points `starts` at time 0.
     #[must_use]
     pub fn new<S>(model: &'a M, starts: S) -> Self
     where
         S: IntoIterator<Item = M::Point<f64>>,
-        S::IntoIter: 'a,
+        S::IntoIter: Send + 'a,
     {
         Self::of(starts.into_iter().map(move |point| (model, point)))
     }
@@ -101,7 +102,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     pub fn of<S>(bodies: S) -> Self
     where
         S: IntoIterator<Item = (H, PointOf<N, H>)>,
-        S::IntoIter: 'a,
+        S::IntoIter: Send + 'a,
     {
         let starts = (0..).zip(bodies).map(|(number, (handle, point))| Start { number, handle, point });
         Self {
@@ -158,14 +159,17 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     /// The [`Event`]s that every body looks for, made anew for each: sections, first passages. A body whose event changes the
     /// point goes alone.
     #[must_use]
-    pub fn events(mut self, events: impl Fn() -> Vec<Event<'a, N, PointOf<N, H>>> + Sync + 'a) -> Self {
+    pub fn events(
+        mut self,
+        events: impl Fn() -> Vec<Event<'a, N, PointOf<N, H>>> + Send + Sync + 'a,
+    ) -> Self {
         self.events = Box::new(events);
         self
     }
 
     /// Called whenever a body is done, in the thread where it is, with the number of those done so far.
     #[must_use]
-    pub fn progress(mut self, callback: impl Fn(u64) + Sync + 'a) -> Self {
+    pub fn progress(mut self, callback: impl Fn(u64) + Send + Sync + 'a) -> Self {
         self.progress = Box::new(callback);
         self
     }
@@ -195,7 +199,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self.keeping(move |number| numbers.contains(&number))
     }
 
-    fn keeping(mut self, keeps: impl Fn(u64) -> bool + 'a) -> Self {
+    fn keeping(mut self, keeps: impl Fn(u64) -> bool + Send + 'a) -> Self {
         self.starts = Box::new(self.starts.filter(move |start| keeps(start.number)));
         self
     }
@@ -246,7 +250,14 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
-        self.fold(|_, _| Vec::new(), |outputs, t, point| outputs.push((t, *point)), each)
+        let expected = self.expected_outputs();
+        self.fold(|_, _| Vec::with_capacity(expected), |outputs, t, point| outputs.push((t, *point)), each)
+    }
+
+    /// Outputs of a body that comes to the end, as far as it is worth to have room for them at once.
+    fn expected_outputs(&self) -> usize {
+        let checked = self.plan.checked(&H::Model::DESCRIPTION);
+        checked.map_or(0, |(_, schedule)| schedule.len().min(MOST_EXPECTED))
     }
 
     /// Runs the ensemble and makes something of the outputs of each body as they come, a mean, an extreme, a histogram:
@@ -335,6 +346,9 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
 /// Bodies that are computed before the next ones are asked for, of each thread: so many that lanes without a body, where a
 /// part comes to its end, do not count.
 const AT_ONCE: usize = 4096;
+
+/// Outputs of a body for which there is room from the start: bodies may stop early.
+const MOST_EXPECTED: usize = 256;
 
 /// There is one.
 #[cfg(not(feature = "parallel"))]

@@ -98,12 +98,16 @@ pub(super) enum Action<'a, P> {
     Change(Change<'a, P>),
 }
 
+/// The name of an event, and other texts of runs that are constants of the program.
+pub(super) type Word = &'static str;
+
 /// An event as it happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Occurrence<P> {
     /// Name of the event.
-    pub name: &'static str,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::inner::word"))]
+    pub name: Word,
     /// Its time.
     pub t: f64,
     /// The phase point there, before any change.

@@ -58,7 +58,7 @@ pub struct Flow<'a, const N: usize, H: Handle<N> + 'a> {
 
 impl<'a, const N: usize, H: Handle<N> + 'a> Flow<'a, N, H> {
     /// The flow of a model from a phase point at a time, by [`Method::Automatic`] and to the tolerance
-    /// [`DEFAULT_TOLERANCE`](super::DEFAULT_TOLERANCE).
+    /// 1e-10.
     ///
     /// How far it will go is not known: for stiff friction, which the choice of a run sees by that, name [`Method::Radau`].
     ///
@@ -192,7 +192,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Flow<'a, N, H> {
         Ok(())
     }
 
-    /// Largest number of steps to one time; [`DEFAULT_MAX_STEPS`](super::DEFAULT_MAX_STEPS) if not set.
+    /// Largest number of steps to one time; a million if not set.
     pub fn set_max_steps(&mut self, max_steps: u64) {
         self.body.limit(max_steps);
     }

@@ -7,7 +7,7 @@ use crate::model::{Model, Quantity};
 /// end: steps of order 8 are at most 6.4 of these times long, and on problems of viscous bodies 250 of them take as many
 /// operations as the few implicit steps that do not see the friction. Friction that grows on the way is looked at again after 512
 /// explicit steps, 1024 and so on, for what is left of the run.
-pub const STIFF_FRICTION: f64 = 1600.0;
+pub(super) const STIFF_FRICTION: f64 = 1600.0;
 
 /// Components of all momenta of a body: `n^2 + n`.
 const MOMENTA: usize = 12;

@@ -19,7 +19,7 @@ const NEAR_THE_BOUND: f64 = 1024.0;
 /// Times are known to a few roundings, and the motion changes by its size within a step.
 const ROUNDINGS: f64 = 4.0;
 /// What an error of a momentum may move the placement by within a step is a part of the placement's own error, as for steps:
-/// see [`ErrorNorm`](crate::integrate::ErrorNorm).
+/// see [`ErrorNorm`](affine_integrators::ErrorNorm).
 const PART_OF_DISPLACEMENT: f64 = 0.1;
 
 /// The numbers of a phase point.
@@ -191,7 +191,7 @@ fn difference<const N: usize>(a: &Numbers, b: &Numbers, scales: &[f64; 4]) -> f6
     })
 }
 
-/// What differences are measured against, group by group, as errors of steps are: see [`ErrorNorm`](crate::integrate::ErrorNorm).
+/// What differences are measured against, group by group, as errors of steps are: see [`ErrorNorm`](affine_integrators::ErrorNorm).
 fn scales<const N: usize>(values: &[Numbers]) -> [f64; 4] {
     let [phi, spin, x, p] = groups::<N>();
     let largest = |group| values.iter().fold(0.0, |most, value| larger(most, sized(value, group)));

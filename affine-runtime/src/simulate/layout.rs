@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::model::{Constraint, Description, Group, Quantity};
+use crate::model::{Description, Group, Quantity};
 
 /// Where a state holds what a run looks at without expanding it.
 #[derive(Clone, Debug)]
@@ -77,11 +77,6 @@ pub(super) const fn placement_in(groups: &[Group], n: usize) -> Option<Range<usi
     }
 }
 
-/// The reduced equations are those of the body without constraint, over `phi` and `Pi`.
-pub(super) const fn is_canonical(model: &Description) -> bool {
-    components!(model.reduced, Quantity::CanonicalMomentum).is_some()
-}
-
 /// `1/D` or `q` is integrated beside the placement, so that `det phi` is not formed.
 pub(super) const fn carries_dilatation(model: &Description) -> bool {
     components!(model.reduced, Quantity::InverseDilatation | Quantity::MeanLogStretch).is_some()
@@ -90,12 +85,6 @@ pub(super) const fn carries_dilatation(model: &Description) -> bool {
 /// The momentum of the phase point is that of a flat metric, `Pi`, and the placement may be any.
 pub(super) const fn is_free_in_pi(model: &Description) -> bool {
     model.constraint.is_none() && components!(model.full, Quantity::CanonicalMomentum).is_some()
-}
-
-/// The phase point is that of an isochoric body, with `Pi` its momentum: a multiplier keeps `det phi = 1`.
-pub(crate) const fn has_multiplier(model: &Description) -> bool {
-    matches!(model.constraint, Some(Constraint::Isochoric))
-        && components!(model.full, Quantity::CanonicalMomentum).is_some()
 }
 
 /// Steps are taken on the group to which the motion is confined: the reduced state holds the placement.

@@ -27,6 +27,8 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn velocity(&self, point: &P) -> Velocity<N>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
+    /// When a closed form leaves GL+(n).
+    fn collapse(&self, geodesic: &Geodesic<N>, t_end: f64, start: &Matrix<N>) -> Option<f64>;
     /// Energy and equations of motion at a point, number by number.
     fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     /// Begins to integrate, by the method that is chosen.
@@ -83,6 +85,9 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     }
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &M::Point<f64>) -> M::Point<f64> {
         self.handle.model().on_geodesic(geodesic, t, start)
+    }
+    fn collapse(&self, geodesic: &Geodesic<N>, t_end: f64, start: &Matrix<N>) -> Option<f64> {
+        self.handle.model().collapse(geodesic, t_end, start)
     }
     fn witness(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
         each(self.handle.model().hamiltonian(t, point));

@@ -1,24 +1,23 @@
 //! The integrators, each begun on the state that it steps.
 
-use super::by_equations::{chart, reduced, with_reaction};
+use super::by_equations::{chart, reduced};
 use super::by_radau::by_radau;
+use super::by_rattle::by_rattle;
 use super::choice::choose;
 use super::course::{Choice, Course};
-use super::layout::{Layout, has_multiplier, has_work, is_canonical, moves_on_group};
+use super::layout::{Layout, has_work, moves_on_group};
 use super::method::Method;
 use super::motion::{At, Boxed, Purpose, begun, boxed, expansion};
 use super::range::in_range;
-use super::stepper::Explicit;
 use super::stiffness::{PiecesOf, adaptive};
 use crate::error::{Reason, Setting};
 use crate::inner::{InVectors, is_emitted};
 use crate::integrate::lie::Flat;
 use crate::integrate::nystrom::Tableau;
-use crate::integrate::rattle::Composition;
-use crate::integrate::{Rattle, RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor};
+use crate::integrate::{RungeKutta5, RungeKutta8, RungeKuttaNystrom, Splitting, Taylor};
 use crate::model::Model;
 use crate::state::Phase;
-use crate::system::{Packing, SecondOrder, Series};
+use affine_core::system::{Packing, SecondOrder, Series};
 
 /// Begins to integrate `model` by the best method there is, or one that the automatic choice has.
 pub(super) fn automatic<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
@@ -45,6 +44,9 @@ fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, con
     course: &Course<'_, M::Point<f64>>,
     choice: &mut Choice,
 ) -> Result<Boxed<'a, N, H>, Reason> {
+    if const { M::IS_GEODESIC && !NAMED } {
+        return Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into());
+    }
     choose::<N, M>(model.model(), course, choice);
     let method = choice.method;
     if choice.needs_determinant {
@@ -52,30 +54,48 @@ fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, con
     }
     let (at, spent) = ((model, course), &mut choice.evaluations);
     match method {
-        Method::Rattle { order, step } if const { NAMED } => by_rattle(at, (order, step), spent),
-        Method::Taylor { order } => by_series(at, |model: H| M::taylor(model), order, spent),
-        Method::Splitting { order, step } if const { NAMED } => {
-            by_pieces(at, |model: H| M::splitting(model), (order, step), spent)
-        }
-        Method::AdaptiveSplitting { order } => {
-            by_adaptive_pieces::<N, M, _, _, NAMED>(at, |model: H| M::splitting(model), order, spent)
-        }
-        Method::Radau { stages }
-            if const { !moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
-        {
-            by_radau(at, stages, spent)
-        }
         Method::RungeKuttaNystrom12 => {
             by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_12, spent)
         }
         Method::RungeKuttaNystrom8 => {
             by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_8, spent)
         }
-        _ if const { !moves_on_group(&M::DESCRIPTION, N) } => {
-            free::<N, M, _, _, NAMED>(at, |model: H| M::packing(model), method, spent)
+        Method::Taylor { order } => by_series(at, |model: H| M::taylor(model), order, spent),
+        Method::AdaptiveSplitting { order } => {
+            by_adaptive_pieces::<N, M, _, _, NAMED>(at, |model: H| M::splitting(model), order, spent)
         }
-        _ if const { is_canonical(&M::DESCRIPTION) } => with_reaction::<N, M, _, NAMED>(at, method, spent),
-        _ => reduced::<N, M, _, _, NAMED>(at, chart::<N, M>(M::DESCRIPTION.reduced)?, method, spent),
+        Method::Splitting { order, step } if const { NAMED } => {
+            by_pieces(at, |model: H| M::splitting(model), (order, step), spent)
+        }
+        Method::Rattle { order, step } if const { NAMED } => {
+            by_rattle(at, |model: H| M::unconstrained(model), (order, step), spent)
+        }
+        Method::Radau { stages }
+            if const { !moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
+        {
+            by_radau(at, stages, spent)
+        }
+        Method::RungeKutta8 | Method::RungeKutta5 | Method::Gauss { .. } | Method::Radau { .. } => {
+            by_any_equations::<N, M, _, NAMED>(at, method, spent)
+        }
+        // Of a closed form there are no steps, and the choice has put a method in the place of the automatic one, which is none
+        // of those that are equal steps.
+        Method::ClosedForm | Method::Automatic | Method::Splitting { .. } | Method::Rattle { .. } => {
+            by_any_equations::<N, M, _, NAMED>(at, Method::RungeKutta8, spent)
+        }
+    }
+}
+
+/// The state by a method for any equations: those in vectors, or those on a group.
+fn by_any_equations<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, const NAMED: bool>(
+    at: At<'_, N, M, H>,
+    method: Method,
+    spent: &mut u64,
+) -> Result<Boxed<'a, N, H>, Reason> {
+    if const { !moves_on_group(&M::DESCRIPTION, N) } {
+        free::<N, M, _, _, NAMED>(at, |model: H| M::packing(model), method, spent)
+    } else {
+        reduced::<N, M, _, _, NAMED>(at, chart::<N, M>(M::DESCRIPTION.reduced)?, method, spent)
     }
 }
 
@@ -216,12 +236,12 @@ where
         Method::RungeKutta5 if const { NAMED } => boxed(at, layout, spent, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta5::in_vectors(field, groups, begin, course.t_end, course.tolerance);
-            begun::<N, M, _, _>(course, steps.map(Explicit::new), expand)
+            begun::<N, M, _, _>(course, steps, expand)
         }),
         _ => boxed(at, layout, spent, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta8::in_vectors(field, groups, begin, course.t_end, course.tolerance);
-            begun::<N, M, _, _>(course, steps.map(Explicit::new), expand)
+            begun::<N, M, _, _>(course, steps, expand)
         }),
     }
 }
@@ -229,25 +249,4 @@ where
 /// A capability that the model was not given.
 fn not_emitted<const N: usize, M: Model<N>>(key: &'static str) -> Reason {
     Setting::NotEmitted { model: M::DESCRIPTION.name, key }.into()
-}
-
-/// RATTLE on the phase point itself.
-fn by_rattle<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
-    at: At<'_, N, M, H>,
-    (order, step): (usize, f64),
-    spent: &mut u64,
-) -> Result<Boxed<'a, N, H>, Reason> {
-    if const { !has_multiplier(&M::DESCRIPTION) } {
-        return Err(Setting::NotSeparable { model: M::DESCRIPTION.name }.into());
-    }
-    let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
-    let (groups, layout) = (M::DESCRIPTION.full, const { Layout::of(M::DESCRIPTION.full, N) });
-    boxed(at, layout, spent, move |model: &H, course| {
-        let (of_model, of_points) = (model.clone(), model.clone());
-        let equations = move |t: f64, full: &M::Full<f64>| of_model.model().free_equations(t, full);
-        let expand = move |_: f64, full: &M::Full<f64>| of_points.model().unflatten(full);
-        let begin = (course.t0, model.model().flatten(course.start));
-        let rattle = Rattle::<N, _, _>::new(equations, groups, composition, begin, course.t_end, step);
-        begun::<N, M, _, _>(course, rattle, expand)
-    })
 }

@@ -1,8 +1,6 @@
 //! Tables as arrays of NumPy.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
-use std::path::Path;
+use std::io::{self, Seek, Write};
 
 use npyz::WriterBuilder;
 use npyz::npz::file_name_from_array_name;
@@ -10,7 +8,6 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 use super::table::Table;
-use crate::error::{Error, Result};
 
 impl Table {
     /// Writes the columns as a `.npz` archive, an array of doubles for each name: `numpy.load` gives them by their names, and
@@ -30,15 +27,5 @@ impl Table {
             array.finish()?;
         }
         archive.finish()?.flush()
-    }
-
-    /// The same to a file.
-    ///
-    /// # Errors
-    /// [`Error::File`] with path and kind of the failure.
-    pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
-        let written = File::create(path).and_then(|file| self.npz(BufWriter::new(file)));
-        written.map_err(|error| Error::File { path: path.to_path_buf(), kind: error.kind() })
     }
 }

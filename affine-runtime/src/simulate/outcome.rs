@@ -7,7 +7,7 @@ use crate::error::{Error, Stop};
 
 /// A run that did not reach its end: the stop, and the trajectory up to there.
 #[derive(Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Halt<const N: usize, P> {
     /// Why, when and at which step.
     pub stop: Stop,

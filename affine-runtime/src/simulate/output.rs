@@ -104,6 +104,15 @@ impl Schedule {
         }
     }
 
+    /// Number of output times, those taken too; 0 where that is not known.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Schedule::Steps => 0,
+            Schedule::Equidistant { count, .. } => *count as usize + 1,
+            Schedule::Listed { times, .. } => times.len(),
+        }
+    }
+
     /// Number of output times taken.
     pub(super) fn taken(&self) -> u64 {
         match self {

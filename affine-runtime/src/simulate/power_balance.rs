@@ -14,13 +14,14 @@ use crate::state::Phase;
 /// integrated with the motion, as one more variable that the steps do not depend on, so that the balance closes to
 /// the error of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PowerBalance {
     /// `H(t_end) - H(t0)`.
     pub energy: f64,
     /// `W(t_end)`.
     pub work: f64,
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub defect: f64,
     /// The size it is held against: the largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
     pub scale: f64,

@@ -16,7 +16,7 @@ use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use crate::error::Setting;
 use crate::error::{Reason, Stop};
-use crate::integrate::{Statistics, is_fused};
+use crate::integrate::{Statistics, fused_arithmetic};
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
 
@@ -59,13 +59,14 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 }
 
 /// A run of a model that is only known by its phase points.
-struct Run<'a, const N: usize, P> {
-    model: &'a dyn Mechanics<N, P>,
-    settings: Settings<'a, N, P>,
+pub(super) struct Run<'a, const N: usize, P> {
+    pub(super) model: &'a dyn Mechanics<N, P>,
+    pub(super) settings: Settings<'a, N, P>,
 }
 
 impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
-    fn outcome(mut self) -> Outcome<N, P> {
+    /// Runs it; callbacks and events stay, for a run that goes on from there.
+    pub(super) fn outcome(&mut self) -> Outcome<N, P> {
         let mut trajectory = self.empty_trajectory();
         let model = self.model;
         let outcome = self.drive(&mut trajectory);
@@ -124,8 +125,11 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
-            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint { run, fused: is_fused(), place }));
+            recorder.trajectory.checkpoint =
+                Some(Box::new(Checkpoint { run, fused: fused_arithmetic(), place }));
         }
+        self.settings.events = recorder.watcher.events;
+        (self.settings.progress, self.settings.observe) = (recorder.progress, recorder.observe);
         outcome
     }
 
@@ -140,7 +144,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         if checkpoint.run != fingerprint(self.model, &self.settings, events) {
             return Err(Setting::Checkpoint { model });
         }
-        if checkpoint.fused != is_fused() {
+        if checkpoint.fused != fused_arithmetic() {
             recorder.trajectory.computation.fused_before = Some(checkpoint.fused);
         }
         let origin = checkpoint.place.origin(&self.settings.start);

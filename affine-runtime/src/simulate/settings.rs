@@ -16,13 +16,13 @@ use crate::model::{Constraint, Description};
 use crate::state::Phase;
 
 /// Tolerance of a simulation that names none.
-pub const DEFAULT_TOLERANCE: f64 = 1e-10;
+pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-10;
 /// The largest tolerance of bodies whose mass matrix may degenerate at some placements, sums of energies of different frames: a
 /// larger error leads motions onto such a placement that only pass near it. `cargo test --test sums near_degenerate` holds random
 /// bodies picked for that: with steps of this tolerance all go through, but one that passes a pivot below ten tolerances.
-pub const NEAR_DEGENERATE: f64 = 1e-6;
+pub(super) const NEAR_DEGENERATE: f64 = 1e-6;
 /// Steps of a simulation that names no limit.
-pub const DEFAULT_MAX_STEPS: u64 = 1_000_000;
+pub(crate) const DEFAULT_MAX_STEPS: u64 = 1_000_000;
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;

@@ -49,8 +49,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         self
     }
 
-    /// Relative error allowed in each step, in the norm of [`ErrorNorm`](crate::integrate::ErrorNorm):
-    /// `1e-15 <= eps < 1`; [`DEFAULT_TOLERANCE`](super::DEFAULT_TOLERANCE) if not set. A closed form is exact up to rounding whatever `eps`.
+    /// Relative error allowed in each step, in the norm of [`ErrorNorm`](affine_integrators::ErrorNorm):
+    /// `1e-15 <= eps < 1`; 1e-10 if not set. A closed form is exact up to rounding whatever `eps`.
     #[must_use]
     pub fn tolerance(mut self, eps: f64) -> Self {
         self.settings.plan.tolerance = eps;
@@ -77,7 +77,7 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// stay what they are.
     ///
     /// A step is kept as a polynomial of degree 4, 8 or 16 for each number of a phase point, in several parts where that is not
-    /// enough, within a tenth of the tolerance, in the norm of [`ErrorNorm`](crate::integrate::ErrorNorm); methods with equal
+    /// enough, within a tenth of the tolerance, in the norm of [`ErrorNorm`](affine_integrators::ErrorNorm); methods with equal
     /// steps take the tolerance for that alone. Of degree 8, the rule at the default, it is 1.7 kB in three dimensions and 0.9 kB in two.
     /// Where a force jumps within a step, the step is parted into 32 at the most. A closed form is kept as it is, in some hundred bytes.
     ///
@@ -107,7 +107,7 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
         Moving { handle: Followed(self.model), begin: self.begin }
     }
 
-    /// Largest number of accepted steps; [`DEFAULT_MAX_STEPS`](super::DEFAULT_MAX_STEPS) if not set.
+    /// Largest number of accepted steps; a million if not set.
     #[must_use]
     pub fn max_steps(mut self, max_steps: u64) -> Self {
         self.settings.plan.max_steps = max_steps;
@@ -139,7 +139,7 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     }
 
     /// Goes on where a run of the same settings was interrupted, [`Trajectory::checkpoint`](super::Trajectory::checkpoint): with
-    /// the same bits, on machines of one [class of arithmetic](crate::integrate::is_fused), as if it had not been; on another,
+    /// the same bits, on machines of one [kind of arithmetic](affine_integrators::FusedArithmetic), as if it had not been; on another,
     /// [`why`](super::Trajectory::why) says so. A checkpoint of another model, parameters, start, method,
     /// tolerance, interval, outputs or events is refused, [`Setting::Checkpoint`](super::Setting::Checkpoint); the largest number
     /// of steps may be another. Outputs and events are those from there on; the end that was asked for is that of both runs.

@@ -90,7 +90,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
         }
         match &mut self.way {
             Way::ClosedForm(motion, _) => {
-                *motion = motion.aimed(t_end);
+                *motion = motion.aimed(&self.moving, t_end);
                 Ok(())
             }
             Way::Steps(engine) => match engine.aim(t_end) {
@@ -114,7 +114,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
         let cost = self.statistics();
         let Self { moving, plan, .. } = self;
         match &mut self.way {
-            Way::ClosedForm(motion, _) => *motion = motion.aimed(t_end),
+            Way::ClosedForm(motion, _) => *motion = motion.aimed(&*moving, t_end),
             Way::Steps(engine) => {
                 let (t, point) = (start.0, &start.1);
                 if self.needs_determinant {
@@ -266,7 +266,7 @@ fn begun<'a, const N: usize, H: Handle<N> + 'a>(
     match (plan.method, moving.geodesic(t, &point)) {
         (Method::ClosedForm, None) => Err(Setting::NoClosedForm { model: moving.description().name }.into()),
         (Method::Automatic | Method::ClosedForm, Some(geodesic)) => {
-            Ok((Way::ClosedForm(ClosedForm::begin(geodesic, start, t), t), false))
+            Ok((Way::ClosedForm(ClosedForm::begin(moving, geodesic, start, t), t), false))
         }
         _ => {
             let mut choice = Choice::default();

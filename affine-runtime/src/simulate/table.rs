@@ -1,9 +1,12 @@
 //! Columns of numbers under names: what leaves the program.
 
+use core::fmt;
+
 use super::trajectory::Trajectory;
 use crate::conserved::evaluate;
 use crate::frames::Matrix;
 use crate::model::{Conserved, Description, Model, Quantity};
+use crate::parametric::Fields;
 use crate::state::Phase;
 
 /// Columns of numbers under names, the same in every file that is written of them: of the outputs of a run,
@@ -22,13 +25,24 @@ use crate::state::Phase;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Table {
+    about: Vec<(String, String)>,
     names: Vec<String>,
+    #[cfg_attr(feature = "serde", serde(with = "super::written::columns"))]
     columns: Vec<Vec<f64>>,
 }
 
 impl Table {
-    fn under(names: Vec<String>) -> Self {
-        Self { columns: names.iter().map(|_| Vec::new()).collect(), names }
+    fn under(description: &Description, names: Vec<String>) -> Self {
+        let about = [
+            ("model", description.name),
+            ("kinetic_energy", description.kinetic_energy.text),
+            ("hamiltonian", description.hamiltonian.text),
+        ];
+        Self {
+            about: about.map(|(key, text)| (key.to_owned(), text.to_owned())).to_vec(),
+            columns: names.iter().map(|_| Vec::new()).collect(),
+            names,
+        }
     }
 
     /// A table of phase points of the bodies of an ensemble, without rows: `body`, a column for each name, `t`, and the
@@ -36,7 +50,10 @@ impl Table {
     #[must_use]
     pub fn of_bodies<const N: usize, M: Model<N>>(names: &[&str]) -> Self {
         let names = ["body"].iter().chain(names).chain(&["t"]).map(|name| (*name).to_owned());
-        Self::under(names.chain(Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).names()).collect())
+        Self::under(
+            &M::DESCRIPTION,
+            names.chain(Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).names()).collect(),
+        )
     }
 
     /// Adds a row to a table [of bodies](Self::of_bodies): number, a value for each name, time and point. What is missing of
@@ -57,6 +74,38 @@ impl Table {
 
     fn add(&mut self, row: impl Iterator<Item = f64>) {
         self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+
+    /// What is known of the table as a whole, by keys: `model`, `kinetic_energy` and `hamiltonian` as the model has them, of a run
+    /// `method` and `tolerance`, and what [`note`](Self::note) and [`note_fields`](Self::note_fields) have added.
+    #[must_use]
+    pub fn about(&self) -> &[(String, String)] {
+        &self.about
+    }
+
+    /// Adds to what is known of the table as a whole, or says it anew: the value of a field, say.
+    pub fn note(&mut self, key: &str, value: impl fmt::Display) {
+        let value = value.to_string();
+        match self.about.iter_mut().find(|(own, _)| own == key) {
+            Some((_, own)) => *own = value,
+            None => self.about.push((key.to_owned(), value)),
+        }
+    }
+
+    /// Adds the values of the fields of a model, each under `field_` and its name, entries of a matrix with their row and column: what
+    /// a run does not keep of its model. `run.table()` of `Body { c: 0.5 }.prepare()?` and `table.note_fields(&Body { c: 0.5 })`
+    /// have `field_c`, 0.5.
+    pub fn note_fields<const N: usize, F: Fields<N>>(&mut self, fields: &F) {
+        let values = fields.values();
+        let mut values = values.as_ref().iter();
+        for field in F::FIELDS {
+            for entry in 0..field.rows * field.rows {
+                let place = (entry / field.rows + 1, entry % field.rows + 1);
+                let place = if field.rows == 1 { String::new() } else { format!("{}{}", place.0, place.1) };
+                let value = values.next().copied().unwrap_or(f64::NAN);
+                self.note(&format!("field_{}{place}", field.name), value);
+            }
+        }
     }
 
     /// The names of the columns.
@@ -115,7 +164,9 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         names.extend(is_balanced.then(|| "work".to_owned()));
         names.extend(conserved.iter().flat_map(|quantity| self.names_of(*quantity)));
         names.extend(conserved.iter().map(|quantity| format!("drift_{}", name(*quantity))));
-        let mut table = Table::under(names);
+        let mut table = Table::under(self.description, names);
+        table.note("method", format_args!("{:?}", self.computation.method));
+        table.note("tolerance", self.computation.tolerance);
         for (k, (t, point)) in self.iter().enumerate() {
             let energy = self.energies.outputs.get(k).copied().unwrap_or(f64::NAN);
             let work = is_balanced.then(|| self.energies.work.get(k).copied().unwrap_or(f64::NAN));
@@ -133,6 +184,22 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
             table.add(head.chain(values).chain(drifts));
         }
         table
+    }
+
+    /// The start as arguments of `at_momentum`: what each is called, and its numbers, of matrices row by row.
+    #[cfg(feature = "report")]
+    pub(crate) fn start_as_arguments(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let columns = Columns::<N, P>::of(self.description);
+        let names = match columns.translation {
+            true => vec!["x", "phi", "p", columns.momentum.0],
+            false => vec!["phi", columns.momentum.0],
+        };
+        let mut values = columns.values(&self.start.1).into_iter();
+        let mut argument = |name: &'static str| {
+            let length = if matches!(name, "x" | "p") { N } else { N * N };
+            (name, values.by_ref().take(length).collect())
+        };
+        names.into_iter().map(&mut argument).collect()
     }
 
     /// The columns of a conserved quantity.

@@ -4,18 +4,19 @@ use core::fmt;
 
 use super::checkpoint::Checkpoint;
 use super::dense::Dense;
-use super::event::Occurrence;
+use super::event::{Occurrence, Word};
 use super::method::Method;
 use crate::error::{Setting, Stop};
-use crate::integrate::Statistics;
+use crate::integrate::{FusedArithmetic, Statistics};
 use crate::metrics::Bases;
 use crate::model::Description;
 use crate::state::Phase;
 
 /// Phase points over time, with how they were computed and what they should conserve.
 #[derive(Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trajectory<const N: usize, P> {
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::inner::constant"))]
     pub(super) description: &'static Description,
     pub(super) start: (f64, P),
     pub(super) end: (f64, P),
@@ -27,27 +28,27 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) computation: Computation,
     pub(super) events: Vec<Occurrence<P>>,
     /// Name of the event that ended the run.
-    pub(super) stopped_by: Option<&'static str>,
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::text"))]
+    pub(super) stopped_by: Option<Word>,
     pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[cfg_attr(feature = "serde", serde(with = "super::written::bases"))]
     pub(super) bases: Option<Box<Bases<N>>>,
     /// What lies between the outputs, where that was asked for.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[cfg_attr(feature = "serde", serde(skip, default = "Option::default"))]
     pub(super) dense: Option<Box<Dense<N, P>>>,
 }
 
 /// How a trajectory was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Computation {
     /// What was asked for.
     pub asked: Method,
     /// What ran: never [`Method::Automatic`].
     pub method: Method,
-    /// Tolerance of the integration: what was asked for, or [`NEAR_DEGENERATE`](super::NEAR_DEGENERATE) where that is smaller and
+    /// Tolerance of the integration: what was asked for, or 1e-6 where that is smaller and
     /// the mass matrix may degenerate on the way.
     pub tolerance: f64,
     /// What was asked for.
@@ -59,7 +60,8 @@ pub struct Computation {
     /// `p = 0` at the start.
     pub at_rest: bool,
     /// What `emit(...)` would have to list for the method that [`Method::Automatic`] would rather take.
-    pub missing: Option<&'static str>,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::text"))]
+    pub missing: Option<Word>,
     /// How many radians of the fastest motion a step by pieces can be long, where that is why [`Method::Automatic`] takes
     /// [`Method::AdaptiveSplitting`].
     pub stiffness: Option<f64>,
@@ -67,8 +69,8 @@ pub struct Computation {
     pub friction: Option<f64>,
     /// From when on, where another method took the motion there.
     pub stiff_since: Option<f64>,
-    /// Whether multiply-adds were [fused](crate::integrate::is_fused) where the run was interrupted, if that is not as here.
-    pub fused_before: Option<bool>,
+    /// Where multiply-adds were fused on the machine on which the run was interrupted, if that is not as here.
+    pub fused_before: Option<FusedArithmetic>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
     pub condition: Option<f64>,
@@ -77,19 +79,22 @@ pub struct Computation {
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then, where that
     /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
     /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub energy_defect: f64,
     /// How many times the largest `|T| + |U|` met the forces that no potential has would take or give within one of the equal
     /// steps, at the output where that is most; 0 up to 10, and for methods in other steps. The stages of collocation close a
     /// balance of energy and work on a motion that is not resolved, too.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub unresolved_power: f64,
     /// The largest part of a turn that an angle of the potential, such as `w*t` in `cos(w*t)`, makes by the time alone within one
     /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps. A resumed run
     /// knows only the steps of its own part.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::named"))]
     pub turns: Option<(&'static str, f64)>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Energies {
     pub(super) start: f64,
     pub(super) end: f64,
@@ -161,6 +166,18 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
                 dense.at(t, self.bases.as_deref()).ok_or_else(|| refused(Setting::OutsideRun { t, from, to }))
             }
         }
+    }
+
+    /// Start, outputs and end, each time once, in orthonormal bases.
+    #[cfg(any(feature = "gltf", feature = "report"))]
+    pub(crate) fn samples(&self) -> Vec<(f64, P::InOrthonormal)> {
+        let mut samples: Vec<(f64, P::InOrthonormal)> = Vec::with_capacity(self.len() + 2);
+        for (t, point) in core::iter::once(self.start()).chain(self.iter()).chain([self.end()]) {
+            if samples.last().is_none_or(|last| last.0 != t) {
+                samples.push((t, self.orthonormal(point)));
+            }
+        }
+        samples
     }
 
     /// The events in the order in which they happened.

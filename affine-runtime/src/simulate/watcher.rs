@@ -139,6 +139,9 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         let bases = bases.as_ref();
         let (point, _) = at(t)?;
         (self.end.t, self.end.rate) = (t, rate(&point));
+        if self.are_where_they_were(&point) {
+            return Ok(Vec::new());
+        }
         let mut met = Vec::new();
         for index in 0..self.events.len() {
             let value = self.events[index].value(t, &point, bases)?;
@@ -162,6 +165,20 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             met.retain(|met| met.t == self.begin.t);
         }
         Ok(met)
+    }
+
+    /// Every function has a side of zero and is still there at the end of the part, as at most samples.
+    fn are_where_they_were(&mut self, point: &P) -> bool {
+        let (t, bases) = (self.end.t, self.bases.as_ref());
+        let events = self.events.iter().zip(&self.memory).zip(&mut self.end.values);
+        events.into_iter().all(|((event, memory), value)| {
+            *value = event.at(t, point, bases);
+            match memory.standing {
+                Standing::On(Side::Negative) => *value < 0.0,
+                Standing::On(Side::Positive) => *value > 0.0,
+                Standing::Open | Standing::Leaving { .. } => false,
+            }
+        })
     }
 
     /// Where the run ends after all that happens on the way to the sample: an event that would happen again at once.

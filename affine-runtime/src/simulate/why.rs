@@ -8,6 +8,7 @@ use super::layout::has_work;
 use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
 use crate::inner::ORDER;
+use crate::integrate::fused_arithmetic;
 use crate::integrate::radau::Tableau;
 use crate::integrate::taylor::order_for;
 use crate::model::{Conserved, Constraint, Description, LeftOut, Quantity, Scope};
@@ -347,15 +348,12 @@ impl Why {
     }
 
     fn arithmetic(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (there, here) = match self.computation.fused_before {
-            None => return Ok(()),
-            Some(true) => ("fused", "not"),
-            Some(false) => ("not fused", "fused"),
-        };
+        let Some(there) = self.computation.fused_before else { return Ok(()) };
+        let here = fused_arithmetic();
         writeln!(
             f,
-            "goes on from another machine: multiply-adds were {there} there, and are {here} here; no uninterrupted run has the \
-             same last bits"
+            "goes on from another machine: multiply-adds were fused {there} there, and are fused {here} here; no uninterrupted \
+             run has the same last bits"
         )
     }
 

@@ -1,7 +1,7 @@
 //! The charts themselves: on the group, inverse under a change of sign, and their equations against differences.
 
+use affine_integrators::lie::Chart;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::lie::Chart;
 use affine_runtime::model::Constraint;
 
 use crate::curve::{GROUPS, defect, project};

@@ -1,9 +1,9 @@
 //! Long runs stay on the group as well as rounding allows: no projection holds them there.
 
+use affine_integrators::gauss::Tableau;
+use affine_integrators::lie::Chart;
+use affine_integrators::{Gauss, RungeKutta8};
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::gauss::Tableau;
-use affine_runtime::integrate::lie::Chart;
-use affine_runtime::integrate::{Gauss, RungeKutta8};
 use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{defect, project, write};

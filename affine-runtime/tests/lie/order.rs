@@ -1,9 +1,9 @@
 //! Measured orders on nonlinear, non-autonomous equations.
 
-use affine_runtime::integrate::gauss::Tableau;
-use affine_runtime::integrate::lie::{Chart, Coordinates, Sum};
-use affine_runtime::integrate::runge_kutta::Step;
-use affine_runtime::integrate::{Gauss, RungeKutta8};
+use affine_integrators::gauss::Tableau;
+use affine_integrators::lie::{Chart, Coordinates, Sum};
+use affine_integrators::runge_kutta::Step;
+use affine_integrators::{Gauss, RungeKutta8};
 use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{GROUPS, defect, distance, equations, solution};

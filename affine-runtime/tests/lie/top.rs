@@ -1,9 +1,9 @@
 //! The free triaxial top as a rigid affine body, against Jacobi's elliptic functions.
 
+use affine_integrators::gauss::Tableau;
+use affine_integrators::lie::Chart;
+use affine_integrators::{Gauss, RungeKutta8};
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::gauss::Tableau;
-use affine_runtime::integrate::lie::Chart;
-use affine_runtime::integrate::{Gauss, RungeKutta8};
 use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{defect, write};

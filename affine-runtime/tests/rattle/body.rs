@@ -1,8 +1,8 @@
 //! Bodies of d'Alembert with hand-written canonical equations over `phi, Pi`, row by row.
 
+use affine_integrators::Rattle;
+use affine_integrators::rattle::Composition;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::Rattle;
-use affine_runtime::integrate::rattle::Composition;
 use affine_runtime::model::{Group, Quantity};
 
 pub(crate) const SPACE: &[Group] =

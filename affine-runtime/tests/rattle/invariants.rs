@@ -1,8 +1,8 @@
 //! What RATTLE keeps: the constraints, spin and vorticity to rounding, the energy without drift, the symplectic form.
 
+use affine_integrators::Rattle;
+use affine_integrators::rattle::Composition;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::Rattle;
-use affine_runtime::integrate::rattle::Composition;
 
 use crate::body::{Elastic, ISOTROPIC, TRIAXIAL, determinant, distance, groups, part, run, start};
 

@@ -1,9 +1,9 @@
 //! Measured orders on a driven, nonlinear body, against the same motion by steps of order 8 on SL(n) with the multiplier
 //! eliminated: another method and another form of the equations.
 
+use affine_integrators::RungeKutta8;
+use affine_integrators::lie::Chart;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::RungeKutta8;
-use affine_runtime::integrate::lie::Chart;
 use affine_runtime::model::Constraint;
 
 use crate::body::{DISC, DRIVEN, Elastic, distance, groups, part, run, start, state};
@@ -64,8 +64,8 @@ fn orders_are_2_4_6_and_8() {
 
 #[test]
 fn output_between_steps_is_of_the_order_of_the_steps_and_leaves_them_alone() {
-    use affine_runtime::integrate::Rattle;
-    use affine_runtime::integrate::rattle::Composition;
+    use affine_integrators::Rattle;
+    use affine_integrators::rattle::Composition;
     let composition = Composition::of_order(6).unwrap();
     let new = || {
         let begin = (0.0, start::<3, 18>(&DRIVEN));

@@ -1,7 +1,7 @@
 //! What RATTLE refuses, and what it says.
 
-use affine_runtime::integrate::rattle::Composition;
-use affine_runtime::integrate::{Failure, Rattle};
+use affine_integrators::rattle::Composition;
+use affine_integrators::{Failure, Rattle};
 use affine_runtime::model::{Group, Quantity};
 
 use crate::body::{DISC, PLANE, SPACE, TRIAXIAL, determinant, part, start};

@@ -28,6 +28,11 @@ fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {
     after.split_once(end).unwrap_or_else(|| panic!("no {end}")).0
 }
 
+/// What a reader sees.
+fn plain(page: &str) -> String {
+    page.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
+}
+
 fn data(page: &str) -> Value {
     serde_json::from_str(between(page, "<script type=\"application/json\" id=\"data\">", "</script>"))
         .unwrap()
@@ -79,8 +84,22 @@ fn assert_read_back<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> Valu
         assert_eq!(numbers(&found["values"]), run.relative_drifts(drift));
         assert!(table.contains(&format!("<td>{:.2e}</td>", drift.relative())));
     }
-    let plain = page.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    let plain = plain(&page);
     assert!(plain.contains(&run.why().to_string()));
+    let energies = data["energies"].as_array().unwrap();
+    assert_eq!(
+        (&energies[0]["symbol"], numbers(&energies[0]["values"])),
+        (&"H".into(), run.energies().to_vec())
+    );
+    assert_eq!(energies.len() == 2, conservation.balance().is_some());
+    // Every formula is a document of MathML, in which no error is marked.
+    let formulas: Vec<&str> =
+        page.split("<math").skip(1).map(|rest| rest.split_once("</math>").unwrap().0).collect();
+    assert_eq!(formulas.len(), 2 + run.description().equations.len());
+    for formula in formulas {
+        roxmltree::Document::parse(&format!("<math{formula}</math>")).unwrap();
+        assert!(!formula.contains("merror") && !formula.contains("178"), "{formula}");
+    }
     data
 }
 
@@ -140,11 +159,81 @@ fn a_page_is_written() {
     assert!(run.save_html(folder.join("no such folder").join("page.html")).is_err());
 }
 
+/// Code with its text.
+macro_rules! with_its_text {
+    ($again:ident, $text:ident, $run:ident: $of:ty, { $($code:tt)* }) => {
+        fn $again() -> affine_runtime::Result<$of> {
+            $($code)*
+            Ok($run)
+        }
+        const $text: &str = stringify!($($code)*);
+    };
+}
+
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = j, body_translation = 2),
+    potential = neo_hookean(k) + 2*q^2,
+)]
+struct Family {
+    k: f64,
+    j: Matrix<2>,
+}
+
+with_its_text!(again, AGAIN, run: Trajectory<2, <PreparedFamily as Model<2>>::Point<f64>>, {
+    let model = Family { k: 0.1, j: Matrix::<2>::new(1.0, 0.25, 0.25, 1.5) }.prepare()?;
+    let start = model.at_momentum(
+        Vector::<2>::new(0.5, 1e-20),
+        Matrix::<2>::new(1.1, 0.2, -0.1, 0.9),
+        Vector::<2>::new(0.1, -0.3),
+        Comoving(Matrix::<2>::new(0.1, 0.7, -0.2, 0.3)),
+    )?;
+    let run = Simulation::new(&model, start)
+        .from(0.25).until(1.5).tolerance(1e-9).method(Method::Gauss { stages: 3, step: 0.125 }).run()?;
+});
+
+/// The program on a page, compiled, makes the run again, bit by bit.
+#[test]
+fn a_page_tells_how_to_make_its_run_again() {
+    let family = Family { k: 0.1, j: Matrix::<2>::new(1.0, 0.25, 0.25, 1.5) };
+    let run = again().unwrap();
+    let page = plain(&run.page().fields(&family).to_html());
+    let program = between(&page, "<h2>The run again</h2>\n<pre>", "</pre>");
+    let tokens = |text: &str| {
+        let code = text.lines().map(|line| line.split("//").next().unwrap());
+        code.collect::<String>().replace(char::is_whitespace, "")
+    };
+    // Punctuation that code may have or not.
+    assert_eq!(tokens(program).replace(",)", ")"), tokens(AGAIN).replace(",)", ")"));
+    assert_eq!(again().unwrap(), run);
+    for row in [
+        "<td>k</td><td>0.1</td>",
+        "<td>j</td><td>1.0, 0.25, 0.25, 1.5</td>",
+        "<td>from, until</td><td>0.25, 1.5</td>",
+        "<td>tolerance asked for</td><td>1e-9</td>",
+        "<td>method</td><td>Gauss { stages: 3, step: 0.125 }</td>",
+    ] {
+        assert!(page.contains(row), "{row}");
+    }
+    let without = plain(&run.to_html());
+    assert!(without.contains("// model: the Family of this run") && !without.contains("<td>k</td>"));
+    let own = plain(&run.page().program("fn main() { a < b }").to_html());
+    assert!(own.contains("<pre>fn main() { a < b }</pre>") && !own.contains("at_momentum"));
+}
+
+/// What happened on the way is named, whatever it is called.
+#[test]
+fn events_stand_in_the_program() {
+    let page = plain(&thrown().to_html());
+    assert!(page.contains("// with the events [\"top \\\"</script>\\\" & <b>\"]"));
+    assert!(page.contains("TwoPoint(Matrix::<3>::new("));
+}
+
 /// What is drawn with is small, and asks for no library.
 #[test]
 fn the_script_is_short() {
     let page = thrown().to_html();
     let script = between(&page, "<script>\n", "\n</script>");
-    assert!(script.lines().count() <= 301, "{}", script.lines().count());
+    assert!(script.lines().count() <= 300, "{}", script.lines().count());
     assert!(script.contains("webgl2") && !script.contains("require"));
 }

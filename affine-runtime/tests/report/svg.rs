@@ -3,9 +3,6 @@
 use affine_runtime::frames::Vector;
 use roxmltree::{Document, Node};
 
-/// Units of coordinates to one unit of the page.
-const FINENESS: f64 = 20.0;
-
 pub(crate) type Spot = (f64, f64);
 
 /// A parsed SVG document; parsing it is the test that it is well-formed.
@@ -50,8 +47,8 @@ impl<'a> Picture<'a> {
 
     /// Centres of discs of a radius.
     pub(crate) fn discs(&self, radius: f64) -> Vec<Spot> {
-        let discs = self.all("circle").filter(|node| number(*node, "r") == radius * FINENESS);
-        discs.map(|node| (number(node, "cx") / FINENESS, number(node, "cy") / FINENESS)).collect()
+        let discs = self.all("circle").filter(|node| number(*node, "r") == radius);
+        discs.map(|node| (number(node, "cx"), number(node, "cy"))).collect()
     }
 
     /// The documented view: azimuth 35, elevation 25 degrees.
@@ -89,15 +86,15 @@ fn number(node: Node<'_, '_>, name: &str) -> f64 {
 fn points(node: Node<'_, '_>) -> Vec<Spot> {
     let pair = |text: &str| {
         let (x, y) = text.split_once(',').unwrap();
-        (x.parse::<f64>().unwrap() / FINENESS, y.parse::<f64>().unwrap() / FINENESS)
+        (x.parse::<f64>().unwrap(), y.parse::<f64>().unwrap())
     };
     node.attribute("points").unwrap().split_whitespace().map(pair).collect()
 }
 
 /// Left, top, right, bottom of a text on the page, with letters 0.6 as wide as the font is high.
 fn text_box(node: Node<'_, '_>) -> [f64; 4] {
-    let size = number(node, "font-size") / FINENESS;
-    let (x, y) = (number(node, "x") / FINENESS, number(node, "y") / FINENESS);
+    let size = number(node, "font-size");
+    let (x, y) = (number(node, "x"), number(node, "y"));
     let length = 0.6 * size * node.text().unwrap().trim().chars().count() as f64;
     let before = match node.attribute("text-anchor").unwrap() {
         "start" => 0.0,

@@ -1,7 +1,7 @@
 //! Errors against references, and what they cost. Errors are relative, in the Frobenius norm of each object.
 
+use affine_integrators::Statistics;
 use affine_runtime::frames::Matrix;
-use affine_runtime::integrate::Statistics;
 use affine_runtime::kinematics::Kinematics;
 use affine_runtime::simulate::Method;
 use affine_runtime::state::Phase;

@@ -2,23 +2,23 @@
 
 use affine_runtime::__private::point as point_of;
 use affine_runtime::Simulation;
-use affine_runtime::frames::{Matrix, TwoPoint};
+use affine_runtime::frames::{Comoving, Matrix};
 use affine_runtime::model::{Conserved, Model};
 use affine_runtime::simulate::{Method, Reason, Setting};
 use affine_runtime::state::{Phase, Pinned};
 
-use crate::models::incompressible_disc::IncompressibleDisc;
-use crate::models::planar::{self, Disc, Planar};
+use crate::models::incompressible_disc::{Drop, IncompressibleDisc};
+use crate::models::planar::{self, Planar};
 use crate::models::top::{self, Top};
 
 /// Placement and velocity `phi L` with `det phi = 1`, `tr L = 0`.
-fn disc() -> Disc {
+fn disc() -> Drop {
     let phi = Matrix::<2>::new(1.25, 0.3, 0.0, 0.8);
-    let velocity = phi * Matrix::<2>::new(0.3, -0.9, 0.5, -0.3);
-    point_of(phi, TwoPoint(velocity.transpose()), Pinned)
+    let spin = Matrix::<2>::new(0.3, -0.9, 0.5, -0.3).transpose() * phi.tr_mul(&phi);
+    point_of(phi, Comoving(spin - Matrix::<2>::identity() * (spin.trace() / 2.0)), Pinned)
 }
 
-fn off(point: &Disc) -> f64 {
+fn off(point: &Drop) -> f64 {
     let velocity = IncompressibleDisc.velocity(point).phi_dot;
     let phi = point.phi();
     let determinant = phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)];
@@ -96,7 +96,7 @@ fn settings_are_checked() {
     assert_eq!(halt.stop.reason, Reason::Setting(Setting::NotIsochoric { model: "Planar" }));
     assert!(halt.to_string().contains("constraint = isochoric"), "{halt}");
 
-    let bulged: Disc = point_of(disc().phi() * 1.01, disc().pi(), Pinned);
+    let bulged: Drop = point_of(disc().phi() * 1.01, disc().sigma_hat(), Pinned);
     let halt = Simulation::new(&IncompressibleDisc, bulged).until(1.0).method(method).run().unwrap_err();
     assert!(
         matches!(halt.stop.reason, Reason::Setting(Setting::OffConstraint { defect }) if (defect - 0.0201).abs() < 1e-12)

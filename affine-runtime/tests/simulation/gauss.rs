@@ -1,7 +1,7 @@
 //! Simulations by Gauss collocation: what is kept, outputs, settings, refusals.
 
+use affine_integrators::Statistics;
 use affine_runtime::Simulation;
-use affine_runtime::integrate::Statistics;
 use affine_runtime::model::Conserved;
 use affine_runtime::simulate::{Method, Reason, Setting};
 use affine_runtime::state::Phase;

@@ -3,6 +3,8 @@
 use core::cell::Cell;
 use core::ops::ControlFlow;
 
+#[cfg(feature = "serde")]
+use affine_integrators::{FusedArithmetic, fused_arithmetic};
 use affine_runtime::__private::point;
 use affine_runtime::Simulation;
 use affine_runtime::frames::TwoPoint;
@@ -178,14 +180,17 @@ fn checkpoints_are_written_and_read() {
 fn a_run_that_goes_on_in_another_class_of_arithmetic_says_so() {
     let halt = whole(Method::RungeKutta8).max_steps(2).run().unwrap_err();
     let text = serde_json::to_string(halt.trajectory.checkpoint().unwrap()).unwrap();
-    let fused = |is: bool| format!("\"fused\":{is}");
-    let here = affine_runtime::integrate::is_fused();
+    let fused = |place: FusedArithmetic| format!("\"fused\":\"{place:?}\"");
+    let here = fused_arithmetic();
     let said = |text: &str| {
         let checkpoint: Checkpoint = serde_json::from_str(text).unwrap();
         whole(Method::RungeKutta8).resume(&checkpoint).run().unwrap().why().to_string()
     };
     assert!(text.contains(&fused(here)), "{text}");
     assert!(!said(&text).contains("another machine"));
-    let elsewhere = said(&text.replace(&fused(here), &fused(!here)));
-    assert!(elsewhere.contains("goes on from another machine: multiply-adds were"), "{elsewhere}");
+    for there in [FusedArithmetic::Nowhere, FusedArithmetic::InVectors, FusedArithmetic::Everywhere] {
+        let elsewhere = said(&text.replace(&fused(here), &fused(there)));
+        let expected = format!("multiply-adds were fused {there} there, and are fused {here} here");
+        assert_eq!(elsewhere.contains(&expected), there != here, "{elsewhere}");
+    }
 }

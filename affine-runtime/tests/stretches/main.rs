@@ -5,7 +5,9 @@
 mod placements;
 
 use affine_runtime::decompose::{log_stretches, principal_log_stretches, principal_stretches};
+use affine_runtime::dual::Dual;
 use affine_runtime::frames::Matrix;
+use affine_runtime::kinematics::mean_log_stretch;
 use affine_runtime::scalar::Scalar;
 use placements::{PLACEMENTS_2, PLACEMENTS_3};
 
@@ -194,4 +196,20 @@ fn special_placements() {
     }
     assert!(cosine(&stretched) <= 4.0 * f64::EPSILON);
     assert!(principal_stretches([[f64::NAN, 0.0], [0.0, 1.0]]).0[0].is_nan());
+}
+
+/// `dq = tr(phi^-1 dphi)/n`, at the undeformed body too, where the logarithm is that of 1.
+#[test]
+fn the_mean_log_stretch_has_its_derivative() {
+    for phi in
+        [Matrix::<2>::identity(), Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(3.0, 0.2, 0.5, 0.4)]
+    {
+        let change = Matrix::<2>::new(0.3, -0.5, 0.7, 0.2);
+        let varied =
+            Matrix::<2, Dual<f64>>::from_fn(|i, j| Dual { value: phi[(i, j)], slope: change[(i, j)] });
+        let expected = (phi.try_inverse().unwrap() * change).trace() / 2.0;
+        let found = mean_log_stretch(&varied);
+        assert!((found.slope - expected).abs() < 1e-14, "{} {expected}", found.slope);
+        assert!((found.value - mean_log_stretch(&phi)).abs() < 1e-15);
+    }
 }

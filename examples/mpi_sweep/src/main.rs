@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Format;
 use mpi::datatype::PartitionMut;
 use mpi::traits::{Communicator, CommunicatorCollectives, Root};
 
@@ -64,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let folder = format!("{folder}/{}-of-{}", place.0, place.1);
         let fields =
             |number: u64| vec![5.0 + 0.1 * (number % COLUMNS) as f64, 0.1 + 0.01 * (number / COLUMNS) as f64];
-        return Ok(shard(bodies, place)?.save(folder, 4096, &["kappa", "c"], fields)?);
+        return Ok(shard(bodies, place)?.save(folder, (Format::Csv, 4096), &["kappa", "c"], fields)?);
     }
     let begin = Instant::now();
     let (mut found, one) = (Vec::new(), Body { kappa: 5.0, c: 0.1 }.prepare()?);

@@ -8,7 +8,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Disc.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros())?;
     let run = Simulation::new(&Disc, start).until(1.0).every(0.1).run()?;
     run.save_svg("disc.svg")?;
-    println!("{}", run.to_svg()?);
+    println!("{}", run.to_svg());
     run.save_html("disc.html")?;
     println!("{}", run.to_html());
     Ok(())

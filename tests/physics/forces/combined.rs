@@ -60,8 +60,8 @@ fn an_isochoric_body_under_a_potential_of_a_field_moves_as_under_the_formula() {
     let (phi, phi_dot) = isochoric_start();
     let (model, same) = (ByField { spring: Spring }, ByFormula);
     let (start, there) = (model.at_velocity(phi, phi_dot).unwrap(), same.at_velocity(phi, phi_dot).unwrap());
-    let full = model.free_equations(T0, &model.flatten(&start));
-    let expected = same.free_equations(T0, &same.flatten(&there));
+    let full = model.hamilton_equations(T0, &model.flatten(&start));
+    let expected = same.hamilton_equations(T0, &same.flatten(&there));
     assert_close("rates", &full, &expected, 1.0, UNDER_POTENTIAL);
     let (energy, formula) = (model.hamiltonian(T0, &start), same.hamiltonian(T0, &there));
     assert_close("energy", &[energy], &[formula], formula.abs(), UNDER_POTENTIAL);

@@ -1,5 +1,7 @@
 //! Derivatives of expressions.
 
+use std::collections::BTreeMap;
+
 use super::arena::Node;
 use super::{Arena, Expr, Function, Rational};
 
@@ -33,6 +35,44 @@ impl Arena {
                 self.mul(outer, inner)
             }
         }
+    }
+
+    /// Derivatives with respect to the symbols that are `wanted` and stand in the expression, by the chain rule from the whole to
+    /// its parts: a part that stands in many places, such as an entry of a product of matrices, is met once, and the slopes share
+    /// what they have of it.
+    pub fn gradient(&mut self, expr: Expr, wanted: &dyn Fn(Expr) -> bool) -> Vec<(Expr, Expr)> {
+        let mut found = Vec::new();
+        let mut open: BTreeMap<Expr, Vec<(Expr, Rational)>> = BTreeMap::new();
+        open.insert(expr, vec![(self.constant(Rational::ONE), Rational::ONE)]);
+        // Parts are older than what they stand in.
+        while let Some((part, slopes)) = open.pop_last() {
+            let slope = self.linear(&slopes);
+            match self.node(part).clone() {
+                Node::Constant(_) => {}
+                Node::Symbol(_) if wanted(part) => found.push((part, slope)),
+                Node::Symbol(_) => {}
+                Node::Sum(_, terms) => {
+                    for (term, c) in terms {
+                        open.entry(term).or_default().push((slope, c));
+                    }
+                }
+                Node::Product(factors) => {
+                    for (k, &(base, exponent)) in factors.iter().enumerate() {
+                        let mut rest = factors.clone();
+                        rest[k].1 -= 1;
+                        rest.push((slope, 1));
+                        let slope = self.certain_product(&rest);
+                        open.entry(base).or_default().push((slope, Rational::from(i64::from(exponent))));
+                    }
+                }
+                Node::Function(function, argument) => {
+                    let outer = self.slope(function, argument);
+                    let slope = self.mul(outer, slope);
+                    open.entry(argument).or_default().push((slope, Rational::ONE));
+                }
+            }
+        }
+        found
     }
 
     /// `function'` at an argument.

@@ -1,6 +1,8 @@
 //! The reference evaluator: expressions by their definition, in any commutative field.
 //!
-//! It is the oracle of every pass: no sharing, no reordering, no rounding when the field is [`Rational`].
+//! It is the oracle of every pass: no reordering, no rounding when the field is [`Rational`].
+
+use rustc_hash::FxHashMap;
 
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
@@ -75,29 +77,44 @@ impl Field for f64 {
 
 /// Value of an expression; `None` where a symbol has no value or a reciprocal does not exist.
 pub fn evaluate<F: Field>(arena: &Arena, expr: Expr, value: &impl Fn(&Symbol) -> Option<F>) -> Option<F> {
-    match arena.node(expr) {
-        Node::Constant(number) => Some(F::from_rational(number)),
-        Node::Symbol(symbol) => value(symbol),
-        Node::Function(function, argument) => evaluate(arena, *argument, value)?.apply(*function),
+    evaluated(arena, expr, value, &mut FxHashMap::default())
+}
+
+/// The same with the values of the parts that were met before.
+fn evaluated<F: Field>(
+    arena: &Arena,
+    expr: Expr,
+    value: &impl Fn(&Symbol) -> Option<F>,
+    known: &mut FxHashMap<Expr, F>,
+) -> Option<F> {
+    if let Some(known) = known.get(&expr) {
+        return Some(known.clone());
+    }
+    let found = match arena.node(expr) {
+        Node::Constant(number) => return Some(F::from_rational(number)),
+        Node::Symbol(symbol) => value(symbol)?,
+        Node::Function(function, argument) => evaluated(arena, *argument, value, known)?.apply(*function)?,
         Node::Sum(constant, terms) => {
             let mut sum = F::from_rational(constant);
             for (term, c) in terms {
-                sum = sum.add(&F::from_rational(c).mul(&evaluate(arena, *term, value)?));
+                sum = sum.add(&F::from_rational(c).mul(&evaluated(arena, *term, value, known)?));
             }
-            Some(sum)
+            sum
         }
         Node::Product(factors) => {
             let mut product = F::from_rational(&Rational::ONE);
             for &(base, exponent) in factors {
-                let base = evaluate(arena, base, value)?;
+                let base = evaluated(arena, base, value, known)?;
                 let base = if exponent < 0 { base.recip()? } else { base };
                 for _ in 0..exponent.unsigned_abs() {
                     product = product.mul(&base);
                 }
             }
-            Some(product)
+            product
         }
-    }
+    };
+    known.insert(expr, found.clone());
+    Some(found)
 }
 
 /// Value of a polynomial; as [`evaluate`].

@@ -28,6 +28,10 @@ pub enum Callee {
     Turn,
     /// `h, A, z -> (exp(-h A) - 1) z`.
     Fading,
+    /// `phi -> R_F(Q_1^2, Q_2^2, Q_3^2)`, Carlson's integral of the squared stretches.
+    Ellipsoidal,
+    /// Its derivatives by the entries of `phi`.
+    EllipsoidalSlopes,
     /// The field `custom_k` of the model, `k` from 1, asked for a force or a potential.
     Custom(usize, Asked),
 }

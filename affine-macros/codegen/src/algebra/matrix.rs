@@ -1,7 +1,6 @@
 //! Small symbolic matrices.
 
 use super::arena::{Arena, Expr};
-use super::rational::Rational;
 use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
@@ -26,23 +25,5 @@ impl Matrix {
     pub fn transpose(&self) -> Self {
         let n = self.dim();
         Self((0..n).map(|i| (0..n).map(|j| self.0[j][i]).collect()).collect())
-    }
-
-    /// Matrix product.
-    #[must_use]
-    pub fn mul(&self, arena: &mut Arena, other: &Self) -> Self {
-        let n = self.dim();
-        let mut entry = |i: usize, j: usize| {
-            let products: Vec<_> =
-                (0..n).map(|k| (arena.mul(self.0[i][k], other.0[k][j]), Rational::ONE)).collect();
-            arena.linear(&products)
-        };
-        Self((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
-    }
-
-    /// Trace.
-    pub fn trace(&self, arena: &mut Arena) -> Expr {
-        let diagonal: Vec<_> = (0..self.dim()).map(|k| (self.0[k][k], Rational::ONE)).collect();
-        arena.linear(&diagonal)
     }
 }

@@ -1,5 +1,7 @@
 //! Symbols replaced by expressions, and signs that hold whatever the symbols are.
 
+use rustc_hash::FxHashMap;
+
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
 use super::rational::Rational;
@@ -8,28 +10,43 @@ use crate::symbol::Symbol;
 impl Arena {
     /// The expression with symbols replaced; `None` where a divisor becomes zero.
     pub fn substitute(&mut self, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Option<Expr> {
-        match self.node(expr).clone() {
-            Node::Constant(_) => Some(expr),
-            Node::Symbol(_) => Some(value(expr).unwrap_or(expr)),
+        self.substituted(expr, value, &mut FxHashMap::default())
+    }
+
+    /// The same with what became of the parts that were met before.
+    fn substituted(
+        &mut self,
+        expr: Expr,
+        value: &dyn Fn(Expr) -> Option<Expr>,
+        known: &mut FxHashMap<Expr, Expr>,
+    ) -> Option<Expr> {
+        if let Some(known) = known.get(&expr) {
+            return Some(*known);
+        }
+        let found = match self.node(expr).clone() {
+            Node::Constant(_) => return Some(expr),
+            Node::Symbol(_) => return Some(value(expr).unwrap_or(expr)),
             Node::Sum(constant, terms) => {
                 let mut summands = vec![(self.constant(constant), Rational::ONE)];
                 for (term, c) in terms {
-                    summands.push((self.substitute(term, value)?, c));
+                    summands.push((self.substituted(term, value, known)?, c));
                 }
-                Some(self.linear(&summands))
+                self.linear(&summands)
             }
             Node::Product(factors) => {
                 let mut product = Vec::with_capacity(factors.len());
                 for (base, exponent) in factors {
-                    product.push((self.substitute(base, value)?, exponent));
+                    product.push((self.substituted(base, value, known)?, exponent));
                 }
-                self.product(&product)
+                self.product(&product)?
             }
             Node::Function(function, argument) => {
-                let argument = self.substitute(argument, value)?;
-                Some(self.apply(function, argument))
+                let argument = self.substituted(argument, value, known)?;
+                self.apply(function, argument)
             }
-        }
+        };
+        known.insert(expr, found);
+        Some(found)
     }
 
     /// Is the value `>= 0` for all symbols, those of `positive` being so; and is it never zero?

@@ -1,4 +1,4 @@
-//! Rules on `custom(...)`.
+//! Rules on `custom(...)` and `self_gravity(k)`.
 
 use crate::diagnostics::{Diagnostics, ForceMistake, PotentialMistake};
 use crate::spec::{Role, Spec, nearest};
@@ -13,6 +13,13 @@ pub(super) fn fields(spec: &Spec, found: &mut Diagnostics) {
         let name = custom.field.to_string();
         let nearest = nearest(&name, fields.iter().map(String::as_str)).map(str::to_owned);
         found.report(custom.field.span(), ForceMistake::UnknownField { name, nearest, fields });
+    }
+}
+
+/// The gravity of a body on itself is that of an ellipsoid in space.
+pub(super) fn in_space(spec: &Spec, found: &mut Diagnostics) {
+    for gravity in spec.self_gravity.iter().filter(|_| spec.dim.value != 3) {
+        found.report(gravity.span, PotentialMistake::GravityInThePlane);
     }
 }
 

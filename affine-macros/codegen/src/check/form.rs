@@ -1,6 +1,6 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::{capabilities, definite, dissipation, momentum_side, parts, smooth, together, two_polar};
+use super::{capabilities, definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower;
@@ -49,6 +49,7 @@ pub(super) fn beside(
     let potential = potential(arena_of, spec, group, (metrics_of, &mut rebased), found);
     forces.driven = driven(spec, potential.as_ref());
     together::with_potential(spec, potential.as_ref(), found);
+    unitary::of_angles(spec, potential.as_ref(), found);
     let alone = match (&mass, parts.as_slice()) {
         (Mass::Constant(_), [kinetic]) => Some(kinetic),
         _ => None,
@@ -191,7 +192,7 @@ pub(super) fn forces(
 /// the methods that take the equations apart have no place for it.
 fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
     let apart = [Capability::Splitting, Capability::Nystrom];
-    let taken_apart = parts::has_multiplier(spec) || apart.iter().any(|c| capabilities::asked(spec, *c));
+    let taken_apart = apart.iter().any(|c| capabilities::asked(spec, *c));
     potential.is_some_and(Potential::depends_on_time) && !taken_apart
 }
 

@@ -8,11 +8,16 @@ use crate::symbol::{Constraint, Frame, TermKind};
 /// Where H is derived by inverting a matrix that depends on phi: the terms that are not exactly zero have constant
 /// coefficients in different velocities. Internal and translational ones are inverted apart, and count apart. The
 /// Casimirs have constant coefficients in Oh as well as in Om. Under a constraint a flat tensor is a matrix that depends on
-/// phi by itself.
+/// phi by itself, and so are masses where phi is no rotation up to scale.
 pub(super) fn are_mixed(spec: &Spec) -> bool {
     let constraint = spec.constraint.as_ref().map(|constraint| constraint.value);
-    let flat = |term: &&Term| term.kind.value == TermKind::FlatTensor && !is_zero(term, spec.dim.value);
-    if constraint.is_some() && spec.kinetic.iter().any(|term| flat(&term)) {
+    let turns = |term: &Term| match (constraint, term.kind.value) {
+        (Some(_), TermKind::FlatTensor) | (Some(Constraint::Isochoric), TermKind::Dalembert) => {
+            !is_zero(term, spec.dim.value)
+        }
+        _ => false,
+    };
+    if spec.kinetic.iter().any(turns) {
         return true;
     }
     let terms = |translation: bool| {

@@ -19,8 +19,14 @@ use super::form::{self, Energy};
 /// [`Reported`] if any is broken; all broken ones are in the bag.
 pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) -> Result<Energy, Reported> {
     let group = spec.constraint.as_ref().map(|constraint| constraint.value);
-    let stated = lower::terms(arena, spec.dim.value, &spec.kinetic);
-    let (places, free): (Vec<usize>, Vec<Term>) = stated.iter().cloned().unzip();
+    let (places, given): (Vec<usize>, Vec<Term>) =
+        lower::terms(arena, spec.dim.value, &spec.kinetic).into_iter().unzip();
+    let (metrics, mut rebased) = (lower::metrics(arena, spec), Vec::new());
+    let free = match &metrics {
+        Some(metrics) => metrics.orthonormal(arena, &given, &mut rebased),
+        None => given,
+    };
+    let stated = places.iter().copied().zip(free.iter().cloned()).collect();
     let free = group.map(|_| Mixed::new(arena, spec.dim.value, &free, Frame::Body, None));
     let (own_places, terms): (Vec<usize>, Vec<Term>) = match group {
         Some(group) => group.restated(arena, stated),
@@ -45,7 +51,9 @@ pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) ->
     let parts = mixed.parts();
     let heavy = |mass: &Expr| arena.as_constant(*mass).is_some_and(|m| !m.is_negative());
     let centre = Masses::of(&parts).list().iter().all(heavy);
-    let positive = Positive { internal: proved.contains(&true), centre };
+    // Masses are positive, whatever the fields.
+    let of_masses = mixed.internal.iter().all(Kinetic::is_dalembert);
+    let positive = Positive { internal: of_masses || proved.contains(&true), centre: of_masses || centre };
     if !positive.internal {
         unproved(spec, &mixed, found);
     }
@@ -60,10 +68,9 @@ pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) ->
         (None, [one]) => one.frame,
         (None, _) => Frame::Flat,
     };
-    let mut rebased = Vec::new();
-    let forces = form::forces(arena, spec, frame, (None, &mut rebased), found);
+    let forces = form::forces(arena, spec, frame, (metrics.as_ref(), &mut rebased), found);
     form::smooth_beside(arena, spec, found)?;
-    Ok(Energy { parts, mass: mass?, positive, stated: None, free, forces, metrics: None, rebased, places })
+    Ok(Energy { parts, mass: mass?, positive, stated: None, free, forces, metrics, rebased, places })
 }
 
 /// The momentum determines the velocity at some placement: the mass matrix is not singular everywhere. Where along a

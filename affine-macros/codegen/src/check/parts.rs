@@ -12,18 +12,14 @@ use super::frames;
 pub enum Part {
     /// `constraint = ...`.
     Confined,
-    /// `constraint = isochoric` of `dalembert`, which acts through its multiplier.
-    Multiplier,
+    /// `constraint = rigid` or `constraint = conformal`: all stretches are equal.
+    Similar,
     /// `constraint = conformal` of `dalembert`, whose energy has the weight `D^2`.
     Weight,
-    /// Terms whose mass matrices are constant in different frames.
+    /// Terms whose mass matrices are constant in different frames, or not on the group of the constraint.
     Sum,
-    /// Such terms under a constraint.
-    ConfinedSum,
     /// `metrics(...)`.
     Metrics,
-    /// `hamiltonian(...)`.
-    Hamiltonian,
     /// `casimir3`.
     Casimir3,
     /// `group = unitary`.
@@ -32,8 +28,6 @@ pub enum Part {
     AffineVelocities,
     /// A term in `phi_dot`.
     PhiDot,
-    /// A term other than `dalembert` and `space_translation`.
-    BeyondDalembert,
     /// A centre of mass whose weight the body carries.
     BodyTranslation,
     /// No potential at all.
@@ -54,6 +48,8 @@ pub enum Part {
     Kick,
     /// A potential that a field computes.
     FieldPotential,
+    /// The gravity of the body on itself.
+    SelfGravity,
     /// Something that `emit(...)` asks for.
     Emitted(Capability),
 }
@@ -64,17 +60,14 @@ impl Part {
     pub fn name(self) -> String {
         match self {
             Self::Confined => "a constraint",
-            Self::Multiplier => "`constraint = isochoric` of `dalembert`",
+            Self::Similar => "`constraint = rigid` or `conformal`",
             Self::Weight => "`constraint = conformal` of `dalembert`",
-            Self::Sum => "a sum of different frames",
-            Self::ConfinedSum => "a sum of different frames under a constraint",
+            Self::Sum => "a mass matrix that depends on `phi`",
             Self::Metrics => "`metrics(...)`",
-            Self::Hamiltonian => "`hamiltonian(...)`",
             Self::Casimir3 => "`casimir3`",
             Self::Unitary => "`group = unitary`",
             Self::AffineVelocities => "a kinetic energy of affine velocities",
             Self::PhiDot => "a kinetic energy of `phi_dot`",
-            Self::BeyondDalembert => "terms other than `dalembert` and `space_translation`",
             Self::BodyTranslation => "`body_translation`",
             Self::Free => "a motion without a potential",
             Self::Energy => "a potential",
@@ -85,6 +78,7 @@ impl Part {
             Self::Force => "`custom(field, form)` in `forces`",
             Self::Kick => "`custom(field, form, position)` in `forces`",
             Self::FieldPotential => "`custom(field, class)` in `potential`",
+            Self::SelfGravity => "`self_gravity(k)`",
             Self::Emitted(capability) => return format!("`emit({})`", capability.name()),
         }
         .to_owned()
@@ -113,20 +107,29 @@ pub(super) fn written(spec: &Spec) -> Vec<Present> {
     if let Some(constraint) = spec.constraint {
         let name = format!("`constraint = {}`", constraint.value.name());
         parts.push(Present { part: Part::Confined, at: constraint.span, name });
-        let weight = constraint.value == Constraint::Conformal && is_dalembert(spec);
-        parts.extend(has_multiplier(spec).then(|| Present::at(Part::Multiplier, constraint.span)));
+        // That of `dalembert` alone, but for a centre of mass.
+        let alone = spec.term(TermKind::Dalembert).is_some() && !mixed;
+        let weight = constraint.value == Constraint::Conformal && alone;
+        let similar = constraint.value != Constraint::Isochoric;
+        parts.extend(similar.then(|| Present::at(Part::Similar, constraint.span)));
         parts.extend(weight.then(|| Present::at(Part::Weight, constraint.span)));
     }
     let energy = |part| Present::at(part, spec.kinetic_key);
-    parts.extend(mixed.then(|| energy(Part::Sum)));
-    parts.extend((mixed && spec.constraint.is_some()).then(|| energy(Part::ConfinedSum)));
+    // Without a constraint the frames of its terms make it so.
+    let name = spec.constraint.as_ref().map_or_else(
+        || "a sum of different frames".to_owned(),
+        |group| {
+            format!("`constraint = {}`, under which the mass matrix depends on `phi`", group.value.name())
+        },
+    );
+    parts.extend(mixed.then(|| Present { name, ..energy(Part::Sum) }));
     parts.extend(kinds(spec, mixed));
     parts.extend(spec.metrics.iter().flatten().take(1).map(|metric| Present::at(Part::Metrics, metric.span)));
     parts.extend(spec.group.map(|group| Present::at(Part::Unitary, group.span)));
     let fields = || spec.customs.iter().filter(|custom| !custom.role.value.is_force());
     match &spec.potential {
         Some(potential) => parts.push(Present::at(Part::Energy, potential.key)),
-        None if fields().next().is_none() => parts.push(energy(Part::Free)),
+        None if fields().next().is_none() && spec.self_gravity.is_empty() => parts.push(energy(Part::Free)),
         None => {}
     }
     parts.extend(spec.dissipation.first().map(|term| Present::at(Part::Friction, term.kind.span)));
@@ -135,18 +138,9 @@ pub(super) fn written(spec: &Spec) -> Vec<Present> {
         at: custom.span,
         name: format!("`custom({}, ..)`", custom.field),
     }));
+    parts.extend(spec.self_gravity.iter().map(|gravity| Present::at(Part::SelfGravity, gravity.span)));
     parts.extend(spec.emit.iter().map(|asked| Present::at(Part::Emitted(asked.value), asked.span)));
     parts
-}
-
-/// Does the constraint act through its multiplier?
-pub(super) fn has_multiplier(spec: &Spec) -> bool {
-    spec.constraint.is_some_and(|constraint| constraint.value == Constraint::Isochoric) && is_dalembert(spec)
-}
-
-/// Is the energy that of `dalembert` alone, but for a centre of mass?
-fn is_dalembert(spec: &Spec) -> bool {
-    spec.term(TermKind::Dalembert).is_some() && !frames::are_mixed(spec)
 }
 
 /// What the terms of the energy make of it.
@@ -158,17 +152,17 @@ fn kinds(spec: &Spec, mixed: bool) -> Vec<Present> {
         let flat = term.kind.value.internal_frame() == Some(Frame::Flat);
         parts.extend((flat && !is_flat).then(|| at(Part::PhiDot)));
         is_flat |= flat;
-        let balanced = matches!(term.kind.value, TermKind::Dalembert | TermKind::SpaceTranslation);
-        parts.extend((!balanced).then(|| at(Part::BeyondDalembert)));
         parts.extend((term.kind.value == TermKind::BodyTranslation).then(|| at(Part::BodyTranslation)));
     }
-    parts.extend((!is_flat && !mixed).then(|| Present::at(Part::AffineVelocities, spec.kinetic_key)));
+    // Terms that differ in the translation alone keep the frame of their velocities.
+    let of = |frame: Frame| spec.kinetic.iter().any(|term| term.kind.value.internal_frame() == Some(frame));
+    let is_over_phi_dot = is_flat || (mixed && of(Frame::Body) && of(Frame::Space));
+    parts.extend((!is_over_phi_dot).then(|| Present::at(Part::AffineVelocities, spec.kinetic_key)));
     for term in spec.hamiltonian.iter().flatten() {
         let at = |part| Present { part, at: term.kind.span, name: format!("`{}`", term.kind.value.name()) };
         parts.extend((term.kind.value == MomentumKind::Casimir3).then(|| at(Part::Casimir3)));
         parts.extend((term.kind.value == MomentumKind::BodyTranslation).then(|| at(Part::BodyTranslation)));
     }
-    parts.extend(spec.hamiltonian.is_some().then(|| Present::at(Part::Hamiltonian, spec.kinetic_key)));
     parts
 }
 

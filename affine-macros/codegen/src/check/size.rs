@@ -4,11 +4,14 @@ use super::potential::parts;
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::lower::integer;
-use crate::spec::{Expression, ExpressionKind, numbered};
+use crate::spec::{Expression, ExpressionKind, MatrixName, numbered};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
 const MOST_SUMMANDS: u64 = 512;
+
+/// Traces are computed by products of matrices, each once, so that their size is the number of their factors.
+const MOST_FACTORS: usize = 32;
 
 /// Upper bounds of numbers of summands.
 #[derive(Clone, Copy)]
@@ -25,8 +28,8 @@ struct Summands {
 
 const ONE: Summands = Summands { above: 1, below: 1, root: 1, inside: 1 };
 
-/// A potential has no more terms than a build has time for. It is computed as it is written; but whether a function of single
-/// stretches is symmetric shows when it is multiplied out.
+/// A potential has no more terms, and no more factors in traces, than a build has time for. It is computed as it is written; but
+/// whether a function of single stretches is symmetric shows when it is multiplied out.
 ///
 /// # Errors
 /// Reported on the first smallest part that has more.
@@ -34,11 +37,17 @@ pub(super) fn of_potential(energy: &Expression, n: usize, found: &mut Diagnostic
     if parts(energy).iter().any(|part| is_of_stretches(part)) {
         return summands(energy, n, found);
     }
-    let traces = |part: &&Expression| matches!(part.kind, ExpressionKind::Trace(_));
-    for part in parts(energy).into_iter().filter(traces) {
-        let ExpressionKind::Trace(factors) = &part.kind else { continue };
-        if of_trace(factors.len(), n) > MOST_SUMMANDS {
-            let limit = "512 summands when its products are multiplied out";
+    let mut known: Vec<&[MatrixName]> = Vec::new();
+    let mut factors = 0;
+    for part in parts(energy) {
+        let ExpressionKind::Trace(product) = &part.kind else { continue };
+        if product.len() == 1 || known.contains(&product.as_slice()) {
+            continue;
+        }
+        known.push(product);
+        factors += product.len();
+        if factors > MOST_FACTORS {
+            let limit = "32 factors in its traces";
             return Err(found.report(part.span, ExpressionMistake::ExpressionSize { limit }));
         }
     }

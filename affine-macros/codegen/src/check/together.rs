@@ -7,33 +7,25 @@ use crate::spec::{Capability, Named, Spec};
 
 use super::parts::{self, Part, Present};
 use Part::{
-    AffineVelocities, BeyondDalembert, BodyTranslation, Casimir3, Confined, ConfinedSum, Emitted, Energy,
-    FieldPotential, Force, Free, Friction, Hamiltonian, Kick, Metrics, Multiplier, OnCentre, OnStretches,
-    OnTime, PhiDot, Sum, Unitary, Weight,
+    AffineVelocities, BodyTranslation, Casimir3, Confined, Emitted, Energy, FieldPotential, Force, Free,
+    Friction, Kick, Metrics, OnCentre, OnStretches, OnTime, PhiDot, SelfGravity, Similar, Sum, Unitary,
+    Weight,
 };
 
 /// Parts that are refused beside each of others, for one reason.
 struct Row(&'static [Part], &'static [Part], &'static str);
 
 const TAYLOR: Part = Emitted(Capability::Taylor);
-const TANGENT: Part = Emitted(Capability::Tangent);
 const SPLITTING: Part = Emitted(Capability::Splitting);
 const NYSTROM: Part = Emitted(Capability::Nystrom);
 const TWO_POLAR: Part = Emitted(Capability::TwoPolar);
 const RATIOS: Part = Emitted(Capability::Ratios);
-const METRIC: Part = Emitted(Capability::Metric);
-const ACCELERATION: Part = Emitted(Capability::Acceleration);
 const BALANCE: Part = Emitted(Capability::Balance);
 
 /// What does not go together.
-const REFUSED: [Row; 25] = [
+const REFUSED: [Row; 22] = [
     Row(
-        &[TAYLOR, TANGENT],
-        &[Multiplier],
-        "there the equations are those of a free body, and the method adds the multiplier step by step",
-    ),
-    Row(
-        &[TAYLOR, TANGENT],
+        &[TAYLOR],
         &[OnStretches],
         "stretches are found by an iteration, and what follows from the operations of a formula does not follow from it",
     ),
@@ -43,20 +35,16 @@ const REFUSED: [Row; 25] = [
         "what a field computes is not known operation by operation",
     ),
     Row(
-        &[SPLITTING],
-        &[Multiplier],
-        "the force of the multiplier depends on all momenta and positions, and no piece has an exact flow",
+        &[TAYLOR],
+        &[SelfGravity],
+        "its integral is found by an iteration, and not known operation by operation",
     ),
     Row(
         &[SPLITTING],
         &[Weight],
         "the energy has the weight D^2, and no piece of it is quadratic in momenta with constant coefficients",
     ),
-    Row(
-        &[SPLITTING],
-        &[Sum],
-        "the mass matrix of the sum depends on phi: the flow of the kinetic energy is not known",
-    ),
+    Row(&[SPLITTING], &[Sum], "the mass matrix depends on phi: the flow of the kinetic energy is not known"),
     Row(
         &[SPLITTING],
         &[Force],
@@ -82,7 +70,8 @@ const REFUSED: [Row; 25] = [
         &[Friction, Force, Kick],
         "Nystrom methods integrate q'' = f(t, q); friction and the work of a force depend on velocities",
     ),
-    Row(&[TWO_POLAR], &[Confined, Metrics], LATTICE),
+    Row(&[TWO_POLAR], &[Metrics], LATTICE),
+    Row(&[TWO_POLAR], &[Similar], "all stretches are equal there, and nothing of the lattice moves"),
     Row(&[TWO_POLAR], &[OnTime, OnCentre], LATTICE),
     Row(
         &[TWO_POLAR],
@@ -96,28 +85,18 @@ const REFUSED: [Row; 25] = [
     ),
     Row(
         &[TWO_POLAR],
-        &[Friction, Force, Kick, FieldPotential],
+        &[Friction, Force, Kick, FieldPotential, SelfGravity],
         "its equations follow from T and potentials that are formulas",
     ),
     Row(&[RATIOS], &[Energy, PhiDot], RATIONAL),
+    Row(&[BALANCE], &[AffineVelocities, Confined, Metrics], KINEMATICAL),
     Row(
-        &[METRIC, ACCELERATION],
-        &[ConfinedSum],
-        "it is derived over all of phi_dot, of which the constraint leaves a part that turns with phi",
-    ),
-    Row(&[BALANCE], &[BeyondDalembert, Hamiltonian, Confined, Metrics], KINEMATICAL),
-    Row(
-        &[Friction, Force, Kick],
-        &[Multiplier],
-        "there a multiplier keeps the constraint, in a method whose kicks do not depend on the velocity: only potentials go with it",
-    ),
-    Row(
-        &[Friction, Force, Kick, FieldPotential],
+        &[Friction, Force, Kick, FieldPotential, SelfGravity],
         &[Casimir3],
         "what it leaves conserved is decided for velocities that are linear in the momenta",
     ),
     Row(
-        &[Friction, Force, Kick, FieldPotential],
+        &[Friction, Force, Kick, FieldPotential, SelfGravity],
         &[Unitary],
         "the lattice of U(n) is that of the Casimir terms alone",
     ),
@@ -131,19 +110,14 @@ const REFUSED: [Row; 25] = [
         &[Casimir3],
         "the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no linear space",
     ),
-    Row(
-        &[Sum],
-        &[Metrics],
-        "their sum has a mass matrix that depends on phi, and is derived in orthonormal bases",
-    ),
 ];
 
 const LATTICE: &str =
     "(q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates";
 const RATIONAL: &str = "in exp(q_b - q_a), M + N and M - N the lattice of the Casimirs is rational, (6.2) to (6.4); forces of a potential \
                         and (6.5) are not";
-const KINEMATICAL: &str = "K = phi J phi_dot^T is the affine spin, and dK/dt = phi_dot J phi_dot^T + N (3.6), for the energy \
-                           m/2 |x_dot|^2 + 1/2 tr(phi_dot J phi_dot^T) (2.1) of a motion on all of GL(n) alone";
+const KINEMATICAL: &str = "K = phi Pi, phi J phi_dot^T of (2.1), is balanced against phi_dot and Pi (3.6): for energies with a term in phi_dot, \
+                           or terms of space and body, of a motion on all of GL(n) in orthonormal coordinates";
 
 /// A pair of parts that exclude each other.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,21 @@
 //! The rule of U(n).
 
 use crate::diagnostics::{CapabilityMistake, Diagnostics};
+use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spec};
 use crate::symbol::Pattern;
 
+/// A potential on the circle depends on its angles alone.
+pub(super) fn of_angles(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
+    if let (Some(_), Some(written), Some(potential)) = (spec.group, &spec.potential, potential)
+        && !potential.is_of_places()
+    {
+        found.report(written.key, CapabilityMistake::UnitaryPotential);
+    }
+}
+
 /// On U(n) the Casimir terms stand, `-A/2 tr Om^2 - B/2 (tr Om)^2` (89): `Om` is anti-Hermitian, every other term breaks
-/// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre or stretches
-/// for a potential.
+/// the symmetry from both sides that the lattice form rests on, and there are no coordinates of a centre.
 pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     if spec.group.is_none() {
         return;
@@ -15,9 +24,6 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
         if !matches!(term.kind.value.pattern(), Pattern::TraceOfSquare | Pattern::SquareOfTrace) {
             found.report(term.kind.span, CapabilityMistake::UnitaryTerm { part: term.kind.value.name() });
         }
-    }
-    if let Some(potential) = &spec.potential {
-        found.report(potential.key, CapabilityMistake::UnitaryTerm { part: "potential" });
     }
     // Claims and requirements speak of GL(n, R).
     if let Some(symmetry) = &spec.symmetry {

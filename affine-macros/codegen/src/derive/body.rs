@@ -9,7 +9,7 @@ use crate::mechanics::conserved::{Candidate, Conservation};
 use crate::mechanics::equations::Load;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::potential::{Base, Potential};
+use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::drift::Drift;
 use crate::mechanics::reduction::{Reduction, Wanted, reductions};
 use crate::mechanics::shared::CentreVelocity;
@@ -40,7 +40,7 @@ impl Body<'_> {
             at_rest = Conservation::of(&resting);
             at_rest.under(arena, &internal);
         }
-        for u in self.multiplier(arena).iter().chain(self.potential) {
+        if let Some(u) = self.potential {
             u.keep(arena, &mut moving);
             u.keep(arena, &mut at_rest);
         }
@@ -64,15 +64,6 @@ impl Body<'_> {
             at_rest.clone_from(&moving);
         }
         Some(Kept { moving, at_rest, rotations })
-    }
-
-    /// The force of the multiplier of a constraint that acts through one: it has the directions of that of a potential in
-    /// `q`, and no other is known of it.
-    fn multiplier(&self, arena: &mut Arena) -> Option<Potential> {
-        self.motion.has_multiplier().then(|| {
-            let q = Base::MeanLogStretch.symbol(arena);
-            Potential::new(arena, self.motion.dim(), q)
-        })
     }
 
     /// The closed form of the geodesics, and whether it needs `p = 0`: with masses in both frames that of the internal motion.

@@ -47,7 +47,7 @@ impl Body<'_> {
             }
             (None, _) => {
                 let equations = self.in_parts(arena, notation, chart)?;
-                let internal = match motion.confined() {
+                let internal = match motion.constraint() {
                     None => mixed::internal_hamiltonian(),
                     Some(_) => mixed::confined_hamiltonian(),
                 };
@@ -84,7 +84,7 @@ impl Body<'_> {
         let names = ForceNames::of(chart, self.forces);
         let frames: Vec<_> = motion.internal().map(|part| part.frame).collect();
         let acting = (&motion.masses, self.potential);
-        let mut list = match motion.confined() {
+        let mut list = match motion.constraint() {
             None => mixed::internal_equations(arena, notation, &frames, acting, &names),
             Some(group) => mixed::confined_equations(arena, notation, &frames, group, acting, &names),
         };

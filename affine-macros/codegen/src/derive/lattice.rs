@@ -76,8 +76,12 @@ pub(super) fn two_polar(
 ) -> TwoPolar {
     let lattice = Lattice::of(arena, h, unitary);
     let mut equations = lattice.equations(arena, h);
-    let formulas = two_polar::formulas(arena, notation, &equations, potential);
-    let on_axes = potential.map(|u| u.on_axes(arena, &lattice));
+    let keeps_volume = h.constraint.is_some();
+    let formulas = two_polar::formulas(arena, notation, &equations, potential, keeps_volume);
+    let mut on_axes = potential.map(|u| u.on_axes(arena, &lattice));
+    if let Some(on_axes) = on_axes.as_mut().filter(|_| keeps_volume) {
+        on_axes.keep_volume();
+    }
     if let Some(on_axes) = &on_axes {
         equations.add(on_axes);
     }

@@ -29,8 +29,6 @@ pub struct Model {
     pub dim: usize,
     /// The group that the motion is confined to; `None` for GL+(n).
     pub constraint: Option<Constraint>,
-    /// Is the affine momentum projected for it? Otherwise the constraint acts through its multiplier.
-    pub projected: bool,
     /// Frame of the internal motion.
     pub frame: Frame,
     /// Frame of the translational energy.
@@ -136,11 +134,14 @@ pub struct Methods {
     pub second_order: Option<second_order::Halves>,
     /// The reduced equations in vectors of four, where that pays.
     pub packed: Option<Packed>,
+    /// The equations without the constraint `det phi = 1`, of masses, for a method that solves for its multiplier.
+    pub unconstrained: Option<Equations>,
 }
 
 /// How a change of the state moves.
 pub struct Variational {
-    /// State and its change -> rates and their changes; `None` where fields compute: these are written for dual numbers too.
+    /// State and its change -> rates and their changes; `None` where fields compute, or where stretches are found by an
+    /// iteration: these take dual numbers too.
     pub program: Option<Program>,
 }
 
@@ -192,8 +193,7 @@ impl Model {
         self.methods.tangent = asked.tangent.then(|| {
             let changes =
                 |symbol: &Symbol| symbol.quantity() == Some(Quantity::Constant) || states.contains(symbol);
-            let asks_fields = program.calls.iter().any(|call| call.field().is_some());
-            Variational { program: (!asks_fields).then(|| fuse(&with_tangent(program, &changes))) }
+            Variational { program: program.calls.is_empty().then(|| fuse(&with_tangent(program, &changes))) }
         });
         // Charts of groups take single components; Runge-Kutta-Nystrom steps and closed forms leave nothing to do.
         let is_closed = matches!(self.dynamics.closed_form, Some((_, false)));

@@ -6,11 +6,12 @@ use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::asked::Asked;
 use crate::mechanics::body::Body;
-use crate::mechanics::charts::{Chart, Coordinate, Linear};
+use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
+use crate::mechanics::reduction::carried::Carried;
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Quantity, Symbol};
 
@@ -18,6 +19,7 @@ use super::batch::{batch, split_batch};
 use super::equations::Equations;
 use super::second_order::Halves;
 use super::splitting::Programs;
+use super::ways::Run;
 
 impl Body<'_> {
     /// Hamilton's equations of a chart under a potential in place of its own, in the shortest of several ways.
@@ -150,19 +152,42 @@ fn shortest_reduction(
     pieces: impl FnOnce(&mut Arena, &Reduction, &mut Constants) -> Pieces,
     coefficients: &mut Constants,
 ) -> Option<Reduced> {
-    let mut best: Option<(usize, Reduction, Program, Constants)> = None;
+    let mut built: Vec<(Reduction, Program, Constants)> = Vec::new();
     for candidate in candidates {
         let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
         states.extend(time);
         let mut constants = Constants::new(Quantity::Constant);
         let way = batch(arena, &candidate.system);
         let program = straight_line(arena, &way, &mut constants, &|a| states.contains(&a));
-        let weight = program.operations().weight() + states.len();
-        if best.as_ref().is_none_or(|(least, ..)| weight < *least) {
-            best = Some((weight, candidate, program, constants));
+        built.push((candidate, program, constants));
+    }
+    let is_flat = |(reduction, ..): &(Reduction, Program, Constants)| {
+        reduction.chart.momentum == Momentum::Canonical && reduction.dilatation.is_none()
+    };
+    let carries = |(reduction, ..): &(Reduction, Program, Constants)| {
+        reduction.carried.contains(&Carried::InverseDilatation)
+    };
+    let far = built.iter().find(|one| is_flat(one) && carries(one));
+    let far =
+        far.map(|(reduction, program, constants)| (reduction.chart.dim, Run::new(arena, program, constants)));
+    let mut best: Option<(usize, usize)> = None;
+    for (k, one) in built.iter().enumerate() {
+        let (reduction, program, constants) = one;
+        // Powers of det phi leave the range of numbers sooner than those of what is carried.
+        if let Some((n, far)) = &far
+            && is_flat(one)
+            && !carries(one)
+            && !Run::new(arena, program, constants).reaches_as_far_as(far, *n)
+        {
+            continue;
+        }
+        let states: usize = reduction.states.iter().map(|(_, s)| s.len()).sum();
+        let weight = program.operations().weight() + states + usize::from(time.is_some());
+        if best.is_none_or(|(least, _)| weight < least) {
+            best = Some((weight, k));
         }
     }
-    let (_, reduction, program, mut constants) = best?;
+    let (reduction, program, mut constants) = built.swap_remove(best?.1);
     let pieces = pieces(arena, &reduction, &mut constants);
     let inputs: Vec<Expr> = trajectory_symbols(&reduction);
     let definitions = Batch {

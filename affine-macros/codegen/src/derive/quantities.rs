@@ -11,6 +11,7 @@ use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
@@ -77,13 +78,19 @@ impl Body<'_> {
             }
             false => None,
         };
-        let balance = match self.motion.hamiltonian().filter(|_| asked.balance) {
-            Some(h) => {
-                let loads = self.loads(arena, chart, self.potential)?;
-                let laws = Laws::new(arena, chart, h, &h.energy_in(chart), &loads);
+        let balance = match asked.balance {
+            true => {
+                let (kinetics, _) = self.motion.kinetics(arena, chart).into_iter().next()?;
+                let (mut added, count) =
+                    (self.loads(arena, chart, self.potential)?, self.motion.added(arena, chart)?.len());
+                // What the centre of mass adds to the kinetic energy comes first.
+                let acting = added.split_off(count);
+                let own =
+                    self.motion.hamiltonian().filter(|_| self.motion.internal().all(Kinetic::is_dalembert));
+                let laws = Laws::new(arena, chart, (&kinetics, &added, own), &acting);
                 Some(balance(arena, chart, &laws, time, coefficients))
             }
-            None => None,
+            false => None,
         };
         Some(Quantities { metric, acceleration, balance })
     }
@@ -91,21 +98,15 @@ impl Body<'_> {
 
 /// The mass matrix over `(x_dot, phi_dot)` of a motion, and its inverse.
 fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> Option<Metric> {
-    let (dim, hamiltonian) = (motion.dim(), motion.hamiltonian());
+    let dim = motion.dim();
     let mixed::Metric { mut shared, mut internal, centre } = mixed::Metric::new(arena, dim, &motion.parts);
-    if let Some(weight) = hamiltonian.and_then(|h| h.weight.as_ref()) {
+    if let Some(weight) = motion.polynomial().and_then(|(_, h)| h.weight.as_ref()) {
         let square = Polynomial::atom(weight.square);
         internal.iter_mut().flatten().for_each(|entry| *entry = entry.mul(&square));
         shared.extend(weight.definitions.iter().cloned());
     }
     let entries = joined(&centre, &internal);
-    let inverse = match hamiltonian {
-        Some(h) => inverse_of(arena, h),
-        None => {
-            let chart = Chart::new(arena, dim, Momentum::Canonical, None);
-            inverse(arena, &entries, shared.clone(), &chart)?
-        }
-    };
+    let inverse = inverse(arena, motion, (&shared, &centre, &internal))?;
     let (size, results) = (entries.len(), numbered(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
@@ -126,12 +127,48 @@ fn joined(centre: &Square<Polynomial>, internal: &Square<Polynomial>) -> Square<
     entries
 }
 
-/// The inverse from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`: with
-/// `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
-fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
-    let n = h.dim;
-    let phi = Matrix::symbols(arena, Quantity::Placement, n).0;
-    let product = |left: Expr, right: Expr| Polynomial::term(vec![left, right], Rational::ONE);
+/// The inverse of the mass matrix, in blocks: of the centre of mass and of the internal motion.
+fn inverse(
+    arena: &mut Arena,
+    motion: &Motion,
+    (shared, centre, internal): (&Definitions, &Square<Polynomial>, &Square<Polynomial>),
+) -> Option<Batch> {
+    let chart = Chart::new(arena, motion.dim(), Momentum::Canonical, None);
+    let mut defined = Definitions::new();
+    let of_centre = match motion.masses.single() {
+        Some(mass) => {
+            let inverse_mass = arena.pow(mass, -1)?;
+            let inverse_mass = Polynomial::normal_form(arena, inverse_mass);
+            of_one_mass(&chart, motion.masses.frame(), &inverse_mass)
+        }
+        None if centre.is_empty() => Vec::new(),
+        None => {
+            defined.clone_from(shared);
+            columns(arena, (Factorised::Centre, centre, 1), &mut defined, &chart)?
+        }
+    };
+    let first = centre.len() + 1;
+    let (definitions, of_internal) = match (motion.polynomial(), motion.factorised()) {
+        (Some((_, h)), _) => (h.weight_definitions(), slopes(&chart, h)),
+        (None, Some(internal)) if motion.constraint().is_some() => {
+            internal.inverse_on_the_group(arena, first)
+        }
+        (None, _) => {
+            let mut shared = shared.clone();
+            let matrix = columns(arena, (Factorised::Internal, internal, first), &mut shared, &chart)?;
+            (shared, matrix)
+        }
+    };
+    let fresh = definitions.into_iter().filter(|(s, _)| !defined.iter().any(|(known, _)| known == s));
+    let shared = defined.iter().cloned().chain(fresh).collect();
+    let results = numbered(&joined(&of_centre, &of_internal));
+    Some(Batch { shared, results, ..Batch::default() }.pruned(arena))
+}
+
+/// That of the internal motion from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`:
+/// with `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
+fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
+    let (n, phi) = (h.dim, &chart.phi.0);
     let pairs = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
     let slope = |i: usize, a: usize, b: usize, j: usize| {
         let mut sum = Polynomial::zero();
@@ -139,55 +176,59 @@ fn inverse_of(arena: &mut Arena, h: &Hamiltonian) -> Batch {
             Frame::Flat => sum = h.velocity[i][a].derivative(h.momentum.0[b][j]),
             Frame::Body => pairs().for_each(|(c, e)| {
                 let inner = h.velocity[c][a].derivative(h.momentum.0[b][e]);
-                sum.add_product(&inner, &product(phi[i][c], phi[j][e]), &Rational::ONE);
+                sum.add_product(&inner, &pair(phi[i][c], phi[j][e]), &Rational::ONE);
             }),
             Frame::Space => pairs().for_each(|(k, l)| {
                 let inner = h.velocity[i][k].derivative(h.momentum.0[l][j]);
-                sum.add_product(&inner, &product(phi[k][a], phi[l][b]), &Rational::ONE);
+                sum.add_product(&inner, &pair(phi[k][a], phi[l][b]), &Rational::ONE);
             }),
         }
         sum
     };
-    let internal: Square<Polynomial> =
-        pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect();
-    let centre = h.translation.as_ref().map_or_else(Vec::new, |(frame, inverse_mass)| {
-        table(n, |i, j| {
-            let mut form = Polynomial::zero();
-            match frame {
-                Frame::Body => {
-                    (0..n).for_each(|a| form.add_scaled(&product(phi[i][a], phi[j][a]), &Rational::ONE));
-                }
-                _ if i == j => form = Polynomial::constant(Rational::ONE),
-                _ => {}
-            }
-            form.mul(inverse_mass)
-        })
-    });
-    let shared = h.weight_definitions();
-    Batch { shared, results: numbered(&joined(&centre, &internal)), ..Batch::default() }.pruned(arena)
+    pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect()
 }
 
-/// The columns of the inverse of a matrix that depends on the placement: the solutions for unit momenta.
-fn inverse(
+/// That of a centre of mass with one mass: `1/m`, or `phi phi^T/m` where the body carries it.
+fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -> Square<Polynomial> {
+    let phi = &chart.phi.0;
+    table(chart.dim, |i, j| {
+        let mut form = Polynomial::zero();
+        match frame {
+            Some(Frame::Body) => {
+                let squares = phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right));
+                squares.for_each(|square| form.add_scaled(&square, &Rational::ONE));
+            }
+            _ if i == j => form = Polynomial::constant(Rational::ONE),
+            _ => {}
+        }
+        form.mul(inverse_mass)
+    })
+}
+
+/// The columns of the inverse of a matrix that depends on the placement, numbered from `first` on: the solutions for unit
+/// momenta.
+fn columns(
     arena: &mut Arena,
-    entries: &Square<Polynomial>,
-    mut shared: Definitions,
+    (of, matrix, first): (Factorised, &Square<Polynomial>, usize),
+    shared: &mut Definitions,
     chart: &Chart,
-) -> Option<Batch> {
-    let size = entries.len();
-    let factorisation = Factorisation::new(arena, Factorised::Internal, entries, &mut shared, chart)?;
-    let columns: Square<Polynomial> = (0..size)
-        .map(|column| {
-            let mut unit = vec![Polynomial::zero(); size];
-            unit[column] = Polynomial::constant(Rational::ONE);
-            let column = column + 1;
-            let solution: Vec<Expr> =
-                (1..=size).map(|row| arena.symbol(Quantity::InverseColumn.at([row, column]))).collect();
-            factorisation.solve(arena, Factorised::Column(column), &unit, &solution, &mut shared);
-            solution.into_iter().map(Polynomial::atom).collect()
-        })
-        .collect();
-    Some(Batch { shared, results: numbered(&columns), ..Batch::default() }.pruned(arena))
+) -> Option<Square<Polynomial>> {
+    let size = matrix.len();
+    let factorisation = Factorisation::new(arena, of, matrix, shared, chart)?;
+    let column = |unit: usize| {
+        let mut momenta = vec![Polynomial::zero(); size];
+        momenta[unit] = Polynomial::constant(Rational::ONE);
+        let column = first + unit;
+        let solution: Vec<Expr> =
+            (1..=size).map(|row| arena.symbol(Quantity::InverseColumn.at([row, column]))).collect();
+        factorisation.solve(arena, Factorised::Column(column), &momenta, &solution, shared);
+        solution.into_iter().map(Polynomial::atom).collect()
+    };
+    Some((0..size).map(column).collect())
+}
+
+fn pair(left: Expr, right: Expr) -> Polynomial {
+    Polynomial::term(vec![left, right], Rational::ONE)
 }
 
 fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {

@@ -66,6 +66,22 @@ impl Place {
         (value - from).abs()
     }
 
+    /// `D` of `s A A^T`.
+    fn dilatation(&self, n: usize) -> f64 {
+        let side = |i: usize, a: usize| unit(i, a) + self.strain * DIRECTION[i][a] / 100.0;
+        let minor = |r: [usize; 2], c: [usize; 2]| {
+            side(r[0], c[0]) * side(r[1], c[1]) - side(r[0], c[1]) * side(r[1], c[0])
+        };
+        let (det, root) = match n {
+            2 => (minor([0, 1], [0, 1]), 1.0),
+            _ => {
+                let others = [[1, 2], [2, 0], [0, 1]];
+                ((0..3).map(|a| side(0, a) * minor([1, 2], others[a])).sum(), 2.0 / 3.0)
+            }
+        };
+        self.stretches[0] * f64::powf(det, root)
+    }
+
     /// Is a body there far from rest?
     fn is_far(&self) -> bool {
         self.stretches != [1.0; 3]
@@ -156,24 +172,79 @@ impl Draft {
         inputs.extend(potential.time());
         let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(arena, &batch, &mut constants, &|atom| inputs.contains(&atom));
-        // Fields by their order, not by their names, which must not matter.
-        let mut fields: Vec<Symbol> = Vec::new();
-        let mut parameters: Vec<(Symbol, f64)> = Vec::new();
-        for (symbol, form) in &constants.entries {
-            let form = form.expression(arena);
-            arena.for_each_symbol(form, &mut |field| {
-                if !fields.contains(field) {
-                    fields.push(field.clone());
-                }
-            });
-            let place = |field: &Symbol| fields.iter().position(|known| known == field);
-            let value = evaluate(arena, form, &|field| Some(sample(&format!("field {}", place(field)?))));
-            parameters.push((arena.symbol_of(*symbol), value.unwrap_or(f64::NAN)));
-        }
+        let parameters = parameters(arena, &constants);
         let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();
         Self { writing, weight: program.operations().weight(), losses, calls: !program.calls.is_empty() }
     }
 }
+
+/// Values for what depends on fields alone.
+fn parameters(arena: &mut Arena, constants: &Constants) -> Vec<(Symbol, f64)> {
+    // Fields by their order, not by their names, which must not matter.
+    let mut fields: Vec<Symbol> = Vec::new();
+    let mut parameters: Vec<(Symbol, f64)> = Vec::new();
+    for (symbol, form) in &constants.entries {
+        let form = form.expression(arena);
+        arena.for_each_symbol(form, &mut |field| {
+            if !fields.contains(field) {
+                fields.push(field.clone());
+            }
+        });
+        let place = |field: &Symbol| fields.iter().position(|known| known == field);
+        let value = evaluate(arena, form, &|field| Some(sample(&format!("field {}", place(field)?))));
+        parameters.push((arena.symbol_of(*symbol), value.unwrap_or(f64::NAN)));
+    }
+    parameters
+}
+
+/// A program of reduced equations that is run far from the undeformed state.
+pub(super) struct Run<'a> {
+    program: &'a Program,
+    parameters: Vec<(Symbol, f64)>,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(arena: &mut Arena, program: &'a Program, constants: &Constants) -> Self {
+        Self { program, parameters: parameters(arena, constants) }
+    }
+
+    /// Has it the values of another wherever that has any, up to dilatations that square to the end of the range of numbers?
+    pub(super) fn reaches_as_far_as(&self, other: &Self, n: usize) -> bool {
+        (1..=15).flat_map(|k| [10 * k, -10 * k]).all(|power| {
+            let place = stretched([10.0_f64.powi(power); 3]);
+            let wanted = other.rates(&place, n);
+            let found = self.rates(&place, n);
+            let of =
+                |symbol: &Symbol| found.iter().find(|(known, _)| known == symbol).map(|(_, value)| *value);
+            let pairs: Vec<(f64, f64)> =
+                wanted.iter().filter_map(|(symbol, value)| Some((*value, of(symbol)?))).collect();
+            let is_near = |(value, own): &(f64, f64)| (value - own).abs() <= NEAR * value.abs();
+            !pairs.iter().all(|(value, _)| value.is_finite()) || pairs.iter().all(is_near)
+        })
+    }
+
+    fn rates(&self, place: &Place, n: usize) -> Vec<(Symbol, f64)> {
+        let root = place.dilatation(n);
+        let input = |symbol: &Symbol| match symbol {
+            Symbol::Component(Quantity::Placement, entry) => {
+                Some(place.placement(n, entry[0] - 1, entry[1] - 1))
+            }
+            _ => match symbol.quantity() {
+                Some(Quantity::InverseDilatation) => Some(1.0 / root),
+                Some(Quantity::MeanLogStretch) => Some(root.ln()),
+                _ => {
+                    let known = self.parameters.iter().find(|(known, _)| known == symbol);
+                    known.map_or_else(|| Some(sample(&symbol.to_string())), |(_, value)| Some(*value))
+                }
+            },
+        };
+        let values = self.program.run(&input).unwrap_or_default();
+        self.program.outputs.iter().map(|(symbol, _)| symbol.clone()).zip(values).collect()
+    }
+}
+
+/// Values that differ by less are the same, whatever rounding does to them.
+const NEAR: f64 = 1e-6;
 
 /// The lightest of those that are nowhere worse than the best there.
 fn best(drafts: &[Draft], near: bool) -> Option<Writing> {

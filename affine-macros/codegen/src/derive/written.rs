@@ -118,7 +118,7 @@ macro_rules! written {
 written! {
     Model {
         regularity, point, quantities, prepared, dynamics, methods;
-        dim, constraint, projected, frame, translation, description
+        dim, constraint, frame, translation, description
     }
     PointPrograms {
         velocity_side, velocity, mass, mixed_masses, hamiltonian, hamiltonian_far_away, domain, power, isotropic;
@@ -126,7 +126,7 @@ written! {
     Quantities { metric, acceleration, balance; }
     Prepared { coefficients, numeric_blocks, conditions, damping, metrics; }
     Dynamics { full, reduced, trajectory, dilatation; reduction, fixed, closed_form }
-    Methods { two_polar, taylor, splitting, tangent, second_order, packed; }
+    Methods { two_polar, taylor, splitting, tangent, second_order, packed, unconstrained; }
     Variational { program; }
     VelocitySide { legendre, kinetic_energy; }
     Domain { program; guards }

@@ -20,6 +20,8 @@ pub enum CapabilityMistake {
         /// A term, `potential`, or a capability.
         part: &'static str,
     },
+    /// A potential of more than angles beside `group = unitary`.
+    UnitaryPotential,
     /// `ratios` without `two_polar`.
     RatiosAlone,
 }
@@ -27,6 +29,7 @@ pub enum CapabilityMistake {
 names! { CapabilityMistake
     NotDoublyIsotropic => "not-doubly-isotropic",
     UnitaryTerm => "unitary-term",
+    UnitaryPotential => "unitary-potential",
     RatiosAlone => "ratios-alone",
 }
 
@@ -48,6 +51,12 @@ impl CapabilityMistake {
                 "on U(n) the energy is -A/2 tr Om^2 - B/2 (tr Om)^2 (89), which U(n) leaves unchanged from both sides; it is \
                  emitted as its lattice on the circle and nothing else",
                 format!("remove `{part}`, and keep `casimir2` and `casimir1_squared`"),
+            ),
+            Self::UnitaryPotential => text(
+                "a potential beside `group = unitary` that depends on more than the angles `q1`, .., `qn`",
+                "on U(n) D = diag(exp(i q_a)): there are no stretches, and what rotations of both sides leave alone is a function \
+                 V(q_1, .., q_n) of the angles",
+                "write it as a function of `q1`, .., `qn`, with the period 2 pi in each",
             ),
             Self::RatiosAlone => text(
                 "`emit(ratios)` with no `two_polar` beside it",

@@ -15,33 +15,6 @@ use super::potential::PotentialMistake;
 use super::term::TermMistake;
 use super::together::TogetherMistake;
 
-/// A mistake in a model, as the user should hear of it; `Display` is the full message.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Diagnostic {
-    /// A mistake of notation.
-    Notation(NotationMistake),
-    /// A capability that the model does not have.
-    Capability(CapabilityMistake),
-    /// A mistake in an expression.
-    Expression(ExpressionMistake),
-    /// A mistake in a potential.
-    Potential(PotentialMistake),
-    /// A mistake in a term of the energy.
-    Term(TermMistake),
-    /// A mistake in a metric, or beside one.
-    Metric(MetricMistake),
-    /// What does not go with a constraint.
-    Constraint(ConstraintMistake),
-    /// A defect of the kinetic energy as a whole.
-    Form(FormMistake),
-    /// A mistake in a force or in the dissipation.
-    Force(ForceMistake),
-    /// Parts that exclude each other.
-    Together(TogetherMistake),
-    /// A mistake of the macro.
-    Fault(FaultMistake),
-}
-
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.text().write(self.name(), f)
@@ -50,7 +23,13 @@ impl fmt::Display for Diagnostic {
 
 /// Hands on what every idea has; a new one is a row here and a file beside this one.
 macro_rules! ideas {
-    ($($idea:ident($mistake:ident),)*) => {
+    ($(#[doc = $doc:literal] $idea:ident($mistake:ident),)*) => {
+        /// A mistake in a model, as the user should hear of it; `Display` is the full message.
+        #[derive(Clone, Debug, PartialEq, Eq)]
+        pub enum Diagnostic {
+            $(#[doc = $doc] $idea($mistake),)*
+        }
+
         impl Diagnostic {
             /// The stable short name of the mistake, which also ends the first line of its message.
             #[must_use]
@@ -81,15 +60,26 @@ macro_rules! ideas {
 }
 
 ideas! {
+    /// A mistake of notation.
     Notation(NotationMistake),
+    /// A capability that the model does not have.
     Capability(CapabilityMistake),
+    /// A mistake in an expression.
     Expression(ExpressionMistake),
+    /// A mistake in a potential.
     Potential(PotentialMistake),
+    /// A mistake in a term of the energy.
     Term(TermMistake),
+    /// A mistake in a metric, or beside one.
     Metric(MetricMistake),
+    /// What does not go with a constraint.
     Constraint(ConstraintMistake),
+    /// A defect of the kinetic energy as a whole.
     Form(FormMistake),
+    /// A mistake in a force or in the dissipation.
     Force(ForceMistake),
+    /// Parts that exclude each other.
     Together(TogetherMistake),
+    /// A mistake of the macro.
     Fault(FaultMistake),
 }

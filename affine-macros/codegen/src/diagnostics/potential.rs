@@ -26,6 +26,13 @@ pub enum PotentialMistake {
         /// How many arguments there are.
         found: usize,
     },
+    /// `2*self_gravity(k)`, or a function of it.
+    SummandByItself {
+        /// The energy.
+        name: &'static str,
+    },
+    /// `self_gravity(k)` in the plane.
+    GravityInThePlane,
     /// Something in `norm(...)` other than `x`.
     Argument {
         /// What stands in the brackets.
@@ -180,6 +187,8 @@ impl TracedPart {
 names! { PotentialMistake
     UnknownFunction => "unknown-function",
     ArgumentCount => "argument-count",
+    SummandByItself => "summand-by-itself",
+    GravityInThePlane => "gravity-in-the-plane",
     Argument => "argument",
     Traced => "traced",
     NotIndexed => "not-indexed",
@@ -211,6 +220,16 @@ impl PotentialMistake {
                 format!("`{name}` has {}", arguments(*found)),
                 format!("`{name}` takes {}", arguments(parameters.len())),
                 format!("write `{name}({})`", parameters.join(", ")),
+            ),
+            Self::SummandByItself { name } => text(
+                format!("`{name}(k)` within an expression"),
+                "it is computed by an iteration, and is a summand of the potential by itself",
+                format!("write `+ {name}(k)`, with its factor and its sign in `k`"),
+            ),
+            Self::GravityInThePlane => text(
+                "`self_gravity(k)` is the energy of a body in space",
+                "in the plane the gravity of a disc and that of a cylinder are different",
+                "write `k/2*ln(tr(G) + 2*det)` for an infinite elliptic cylinder, of which `k = G m^2` for a mass `m` per length",
             ),
             Self::Argument { found } => text(
                 format!("`norm({found})` is not defined"),

@@ -33,6 +33,11 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         }
         _ => quote!(let drift = #rt::Vector::<#n>::zeros();),
     };
+    let is_always = (!needs_rest).then(|| {
+        quote!(
+            const IS_GEODESIC: ::core::primitive::bool = true;
+        )
+    });
     let straight = components == Components::TwoPoint;
     let spin = own_spin(context);
     let typed = context.bases(Some(&f64), Coefficients::Own);
@@ -43,6 +48,18 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     let stated = (context.model.prepared.metrics.is_some() && straight).then(|| quote!(let stated = point;));
     // A straight line reads the velocity alone, and the momentum of a free centre.
     let inward = (!straight || drifts).then(|| context.inward(Coefficients::Own));
+    let collapse = straight.then(|| {
+        quote! {
+            fn collapse(
+                &self,
+                geodesic: &#rt::Geodesic<#n>,
+                t_end: #f64,
+                start: &#rt::Matrix<#n>,
+            ) -> ::core::option::Option<#f64> {
+                geodesic.collapse(t_end, start)
+            }
+        }
+    });
     let on_geodesic = context.with_metrics(quote! {
         fn on_geodesic(
             &self,
@@ -70,6 +87,8 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         }
     };
     quote! {
+        #is_always
+
         fn geodesic(&self, t0: #f64, point: &Self::Point<#f64>) -> ::core::option::Option<#rt::Geodesic<#n>> {
             #stated
             #inward
@@ -80,5 +99,6 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
         }
 
         #on_geodesic
+        #collapse
     }
 }

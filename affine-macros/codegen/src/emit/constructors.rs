@@ -34,7 +34,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
         false => ("`phi`", "`phi_dot`", "the affine spin"),
         true => ("`(x, phi)`", "`(x_dot, phi_dot)`", "`p` and the affine spin"),
     };
-    let Confinement { off, from_momentum, tangent, from_velocity } = confinement(context, &centre);
+    let Confinement { off, tangent, point: checked } = confinement(context, &centre);
     let at_momentum = format!(
         " The phase point at the placement {q} with {m}: `Spatial(sigma)`, `Comoving(sigma_hat)` or `TwoPoint(pi)`."
     );
@@ -85,7 +85,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                     #tangent
                     #legendre
                     #momentum_of_centre
-                    #from_velocity #outward
+                    #checked #outward
                 }
             }
         }
@@ -105,7 +105,7 @@ pub(super) fn inherent(context: &Context) -> TokenStream {
                 spin: impl #rt::Momentum<#n, #rt::f64>,
             ) -> #rt::Result<#point> {
                 #vectors
-                #from_momentum
+                #checked
             }
 
             #at_velocity
@@ -126,24 +126,17 @@ fn of_centre(context: &Context, other: &str) -> Option<TokenStream> {
 struct Confinement {
     /// A line of documentation.
     off: TokenStream,
-    /// The point with the momentum `spin`.
-    from_momentum: TokenStream,
     /// What has to hold before a velocity is looked at.
     tangent: TokenStream,
-    /// The point with the momentum of a velocity.
-    from_velocity: TokenStream,
+    /// The point with the momentum `spin`.
+    point: TokenStream,
 }
 
 fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
     let rt = &context.names.rt;
     let free = mixed::regular(context, quote!(#rt::phase_point(phi, spin, #centre)));
     let Some(group) = context.constraint() else {
-        return Confinement {
-            off: TokenStream::new(),
-            from_momentum: free.clone(),
-            tangent: TokenStream::new(),
-            from_velocity: free,
-        };
+        return Confinement { off: TokenStream::new(), tangent: TokenStream::new(), point: free };
     };
     let tangent = quote! {
         #rt::on_the_group(#group, &phi)?;
@@ -153,17 +146,8 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
         ///
         /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
     };
-    if context.model.projected {
-        let confined = mixed::regular(context, quote!(#rt::confined_point(#group, phi, spin, #centre)));
-        return Confinement { off, from_momentum: confined.clone(), tangent, from_velocity: confined };
-    }
-    let from_momentum = quote! {
-        #rt::on_the_group(#group, &phi)?;
-        let point = #free?;
-        #rt::in_the_algebra(#group, &phi, &#rt::Model::velocity(self, &point).phi_dot)?;
-        ::core::result::Result::Ok(point)
-    };
-    Confinement { off, from_momentum, tangent, from_velocity: free }
+    let point = mixed::regular(context, quote!(#rt::confined_point(#group, phi, spin, #centre)));
+    Confinement { off, tangent, point }
 }
 
 /// `O -> X` in the model's frame.

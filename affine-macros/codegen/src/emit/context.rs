@@ -213,11 +213,6 @@ impl Context<'_> {
         }
     }
 
-    /// Is there a constraint that momenta are not projected to? It is kept by a multiplier.
-    pub(super) fn has_multiplier(&self) -> bool {
-        self.model.constraint.is_some() && !self.model.projected
-    }
-
     /// Number of coefficients of the prepared model, with the entries of its bases.
     pub(super) fn coefficients(&self) -> usize {
         let entries = if self.has_prepared_bases() { 4 * self.model.dim.pow(2) } else { 0 };

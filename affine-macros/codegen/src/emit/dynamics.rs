@@ -22,14 +22,12 @@ use super::point::{
 /// The methods that do not reduce.
 pub(super) fn methods(context: &Context) -> Vec<Method> {
     let flat = flat(context);
-    let refusal = context.has_multiplier().then(|| without_multiplier(context));
     vec![
         Method::Evaluation(velocity(context)),
         Method::Evaluation(kinetic_energy(context)),
         Method::Evaluation(hamiltonian(context)),
         // The coefficients hold the bases, where these follow from fields.
         if context.has_prepared_bases() { Method::Evaluation(flat) } else { Method::Other(flat) },
-        Method::Other(refusal.unwrap_or_default()),
         Method::Evaluation(hamilton_equations(context)),
         Method::Other(mixed::regularity(context)),
     ]
@@ -256,28 +254,14 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let time = time(program);
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let inline = context.inline();
-    // With coefficients that are given there are only equations without a multiplier.
-    let name = match context.has_multiplier() && !context.has_fields {
-        true => "free_equations",
-        false => "hamilton_equations",
-    };
-    let Evaluation { name, parameter } = Evaluation::of(context, name, slice::from_ref(program));
+    let Evaluation { name, parameter } =
+        Evaluation::of(context, "hamilton_equations", slice::from_ref(program));
     quote! {
         #inline
         fn #name<#t: #rt::Scalar>(&self, #parameter #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             let #bound = *full;
             #lets
             [#(#results),*]
-        }
-    }
-}
-
-/// Hamilton's equations of a motion that a multiplier keeps on its constraint.
-fn without_multiplier(context: &Context) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
-    quote! {
-        fn hamilton_equations<#t: #rt::Scalar>(&self, _t: #t, _full: &Self::Full<#t>) -> Self::Full<#t> {
-            const { #rt::no_equations_without_multiplier() }
         }
     }
 }

@@ -23,8 +23,14 @@ pub(super) fn statement(
         Callee::Elongation => quote!(#rt::elongation),
         Callee::Turn => quote!(#rt::turning),
         Callee::Fading => quote!(#rt::fading),
+        Callee::Ellipsoidal => quote!(#rt::ellipsoidal),
+        Callee::EllipsoidalSlopes => quote!(#rt::ellipsoidal_slopes),
         Callee::Custom(k, asked) => {
             let field = format_ident!("custom_{k}");
+            // A force is told of a motion as a whole.
+            if matches!(asked, Asked::Force(..)) {
+                arguments = vec![quote!((#(#arguments),*))];
+            }
             arguments.insert(0, quote!(#field));
             let suffix = if *rebased { "_in" } else { "" };
             let at = k.checked_sub(1).and_then(|k| places.get(k).copied()).unwrap_or_else(Span::call_site);

@@ -30,21 +30,6 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     }
 }
 
-/// The hook by which a simulation finds the capability.
-pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.methods.packed.is_none() {
-        return TokenStream::new();
-    }
-    let (rt, n) = (&context.names.rt, context.dim());
-    quote! {
-        fn packing(
-            model: impl #rt::Handle<#n, Model = Self>,
-        ) -> ::core::option::Option<impl #rt::Packing<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(model))
-        }
-    }
-}
-
 /// `packed` and `unpacked`.
 fn change_of_storage(context: &Context, packed: &Packed) -> TokenStream {
     let rt = &context.names.rt;

@@ -90,8 +90,6 @@ pub(super) fn divided(
 fn with_own(context: &Context) -> TokenStream {
     let (rt, t, n, inline) = (&context.names.rt, &context.names.scalar, context.dim(), context.inline());
     let own = quote!(::core::borrow::Borrow::borrow(&#t::of_doubles(&self.coefficients)));
-    let equations =
-        if context.has_multiplier() { quote!(free_equations) } else { quote!(hamilton_equations) };
     let power = context.model.point.power.is_some().then(|| {
         quote! {
             fn power<#t: #rt::Real>(&self, t: #t, point: &Self::Point<#t>) -> #t {
@@ -135,7 +133,7 @@ fn with_own(context: &Context) -> TokenStream {
         #power
         #flat
         #inline
-        fn #equations<#t: #rt::Scalar>(&self, t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
+        fn hamilton_equations<#t: #rt::Scalar>(&self, t: #t, full: &Self::Full<#t>) -> Self::Full<#t> {
             #rt::Parametric::hamilton_equations_with(self, #own, t, full)
         }
         fn reduce<#t: #rt::Real>(

@@ -48,7 +48,7 @@ pub(super) fn wrapper(context: &Context, components: Components) -> TokenStream 
 /// A momentum, projected under a constraint.
 pub(super) fn projected(context: &Context, momentum: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    match context.constraint().filter(|_| context.model.projected) {
+    match context.constraint() {
         Some(group) => quote!(#rt::projected(#group, &(#momentum))),
         None => momentum,
     }

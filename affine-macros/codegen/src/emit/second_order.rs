@@ -49,21 +49,6 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     }
 }
 
-/// The hook by which a simulation finds the capability.
-pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.methods.second_order.is_none() {
-        return TokenStream::new();
-    }
-    let (rt, n) = (&context.names.rt, context.dim());
-    quote! {
-        fn second_order(
-            model: impl #rt::Handle<#n, Model = Self>,
-        ) -> ::core::option::Option<impl #rt::SecondOrder<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(model))
-        }
-    }
-}
-
 /// A program over one half, and the name of the constants that it reads.
 fn written(
     context: &Context,

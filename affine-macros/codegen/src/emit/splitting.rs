@@ -72,21 +72,6 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     }
 }
 
-/// The hook by which a simulation finds the capability.
-pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.methods.splitting.is_none() {
-        return TokenStream::new();
-    }
-    let (rt, n) = (&context.names.rt, context.dim());
-    quote! {
-        fn splitting(
-            model: impl #rt::Handle<#n, Model = Self>,
-        ) -> ::core::option::Option<impl #rt::Pieces<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(model))
-        }
-    }
-}
-
 /// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
 fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
     let mut used = program.inputs();

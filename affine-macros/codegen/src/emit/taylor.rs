@@ -39,21 +39,6 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     }
 }
 
-/// The hook by which a simulation finds the capability.
-pub(super) fn capability(context: &Context) -> TokenStream {
-    if context.model.methods.taylor.is_none() {
-        return TokenStream::new();
-    }
-    let (rt, n) = (&context.names.rt, context.dim());
-    quote! {
-        fn taylor(
-            model: impl #rt::Handle<#n, Model = Self>,
-        ) -> ::core::option::Option<impl #rt::Series<Self::Reduced<#rt::f64>, Self::Constants<#rt::f64>>> {
-            ::core::option::Option::Some(#rt::Emitted(model))
-        }
-    }
-}
-
 impl Writer<'_> {
     /// `start`: order zero of the row, and the slope.
     fn start(&self) -> TokenStream {

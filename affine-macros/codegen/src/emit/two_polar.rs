@@ -104,6 +104,7 @@ fn conversions(context: &Context) -> TokenStream {
     let (generics, types, clause) = context.generics();
     let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
+    let confined = context.constraint();
     let centre = match context.model.translation {
         None => quote!(#rt::Pinned),
         Some(_) => {
@@ -132,6 +133,10 @@ fn conversions(context: &Context) -> TokenStream {
             }
         }
     };
+    let point = match confined {
+        None => quote!(#rt::phase_point(phi, #wrap(spin), #centre)),
+        Some(group) => quote!(#rt::confined_point(#group, phi, #wrap(spin), #centre)),
+    };
     quote! {
         impl #generics #rt::TwoPolarForm<#n> for #prepared #types #clause {
             fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
@@ -148,7 +153,7 @@ fn conversions(context: &Context) -> TokenStream {
 
             fn at_lattice(&self, lattice: &#rt::Lattice<#n>) -> #rt::Result<Self::Point<#f64>> {
                 let (phi, spin) = #rt::placement_and_spin::<#n, #frame>(lattice)?;
-                #rt::phase_point(phi, #wrap(spin), #centre)
+                #point
             }
 
             fn isotropic(&self) -> ::core::option::Option<#rt::Isotropic> {

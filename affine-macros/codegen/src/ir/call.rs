@@ -23,9 +23,13 @@ impl Call {
     pub fn field(&self) -> Option<usize> {
         match self.callee {
             Callee::Custom(place, _) => Some(place),
-            Callee::Stretches | Callee::LogStretches | Callee::Elongation | Callee::Turn | Callee::Fading => {
-                None
-            }
+            Callee::Stretches
+            | Callee::LogStretches
+            | Callee::Elongation
+            | Callee::Turn
+            | Callee::Fading
+            | Callee::Ellipsoidal
+            | Callee::EllipsoidalSlopes => None,
         }
     }
 

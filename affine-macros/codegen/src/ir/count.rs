@@ -94,6 +94,12 @@ fn kernel_operations(call: &Call) -> Operations {
         Callee::Fading => {
             Operations { mul: 18 * (n * n + n), add: 18 * (n * n + n), ..Operations::default() }
         }
+        // Duplications, with Newton's iteration in each: scaling, invariants, 40 iterations, and a series.
+        Callee::Ellipsoidal => Operations { mul: 397, add: 317, div: 82, sqrt: 66, ..Operations::default() },
+        // Backwards through them, with the slopes of the series and of the invariants.
+        Callee::EllipsoidalSlopes => {
+            Operations { mul: 646, add: 458, div: 114, sqrt: 66, ..Operations::default() }
+        }
         // One-sided Jacobi: scaling, so many rotations of two columns of two matrices, lengths.
         Callee::Stretches => {
             let rotations = if n == 2 { 2 } else { 12 };

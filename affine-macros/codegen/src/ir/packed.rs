@@ -12,7 +12,6 @@
 mod cost;
 mod layout;
 mod pack;
-mod run;
 mod schedule;
 mod vector;
 

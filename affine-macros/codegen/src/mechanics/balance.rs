@@ -1,9 +1,9 @@
-//! The balance laws of a d'Alembert model (section 3), in the kinematical spin `K` instead of the momentum `Pi`.
+//! The balance laws of an energy of `phi_dot` (section 3), in the kinematical spin `K` instead of the momentum `Pi`.
 //!
 //! `K = phi (dT/dphi_dot)^T = phi Pi`, which is `phi J phi_dot^T` for the energy (2.1). Its rate along Hamilton's equations
-//! is `phi_dot Pi + phi N_Pi` with the force `N_Pi` on `Pi`: (3.6), and with `phi_dot = Om phi` (3.8). Seen from the body
-//! as a tensor with two upper indices, `K_hat = phi^-1 K phi^-T = Pi phi^-T`, which is not `Sigma_hat = Pi phi`; the same
-//! product rule gives (3.9).
+//! is `phi_dot Pi + phi (T_Pi + N_Pi)` with the force `N_Pi` on `Pi`, and `T_Pi = dT/dphi` where the energy depends on `phi`:
+//! (3.6), and with `phi_dot = Om phi` (3.8). Seen from the body as a tensor with two upper indices,
+//! `K_hat = phi^-1 K phi^-T = Pi phi^-T`, which is not `Sigma_hat = Pi phi`; the same product rule gives (3.9).
 
 use crate::algebra::ring::{Square, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
@@ -16,7 +16,8 @@ use super::kinetics::Kinetics;
 use super::shared::{Shared, atoms};
 use super::term::Frame;
 
-/// Quantities of the internal motion: `K`, `phi_dot Pi`, `N`, and in the body `K_hat`, `-K_hat Oh^T`, `N_hat`.
+/// Quantities of the internal motion: `K`, `phi_dot Pi + phi T_Pi`, `N`, and in the body `K_hat`, `T_Pi phi^-T - K_hat Oh^T`,
+/// `N_hat`.
 pub const INTERNAL: [(Quantity, Frame); 6] = [
     (Quantity::Spin, Frame::Space),
     (Quantity::Inertia, Frame::Space),
@@ -48,70 +49,80 @@ pub struct Laws {
 }
 
 impl Laws {
-    /// The laws in the canonical chart, with `p` spatial.
+    /// The laws in the canonical chart, with `p` spatial, of an energy and of what the centre of mass adds to it. Of `(2.1)` the
+    /// Hamiltonian is given as well, whose velocity acts on the index of the body alone.
     pub fn new(
         arena: &mut Arena,
         chart: &Chart,
-        h: &Hamiltonian,
-        energy: &Polynomial,
+        (kinetics, added, own): (&Kinetics, &[Load], Option<&Hamiltonian>),
         loads: &[Load],
     ) -> Self {
         let (n, phi, pi) = (chart.dim, atoms(&chart.phi), atoms(&chart.m));
-        let kinetics = Kinetics::polynomial(arena, chart, energy);
-        let mut system = System {
-            shared: kinetics.shared.clone(),
-            rates: chart
-                .coordinates()
-                .into_iter()
-                .map(|z| (z, chart.symbol(z), Polynomial::zero()))
-                .collect(),
-            ..System::default()
-        };
+        let mut inertial = System { shared: kinetics.shared.clone(), ..still(chart) };
+        inertial.add(&kinetics.load());
+        added.iter().for_each(|load| inertial.add(load));
+        let mut system = System { shared: inertial.shared.clone(), ..still(chart) };
         loads.iter().for_each(|load| system.add(load));
-        let force = |z: Coordinate| {
-            let found = system.rates.iter().find(|(known, _, _)| *known == z);
-            found.map_or_else(Polynomial::zero, |(_, _, force)| force.clone())
-        };
+        let kinetic = table(n, |a, i| rate(&inertial, Coordinate::M(a, i)));
         let mut shared = Shared { arena, list: Vec::new() };
         let phi_dot = atoms(&kinetics.velocity);
-        let push = shared.matrix(Quantity::Load, &table(n, |a, i| force(Coordinate::M(a, i))));
+        let push = shared.matrix(Quantity::Load, &table(n, |a, i| rate(&system, Coordinate::M(a, i))));
         let inverse = shared.inverse(&phi);
         let upper = |shared: &mut Shared, of: Quantity, tensor: &Square<Polynomial>| {
             shared.matrix(of, &product(tensor, &transpose(&inverse)))
         };
         let spin_hat = upper(&mut shared, Quantity::KinematicalSpin, &pi);
         let moment_hat = upper(&mut shared, Quantity::Moment, &push);
-        // phi_dot is linear in Pi, and acts on its body index alone: what it is of K_hat = Pi phi^-T is phi_dot^T phi^-T.
-        let of_spin_hat = |atom: Expr| {
-            let entry = (0..n * n).find(|k| h.momentum.0[k / n][k % n] == atom)?;
-            Some(spin_hat[entry / n][entry % n].clone())
+        let omega_hat = match own {
+            // phi_dot is linear in Pi, and acts on its body index alone: what it is of K_hat = Pi phi^-T is phi_dot^T phi^-T.
+            Some(h) => table(n, |a, b| {
+                h.velocity[a][b].substitute(&|atom: Expr| {
+                    let entry = (0..n * n).find(|k| h.momentum.0[k / n][k % n] == atom)?;
+                    Some(spin_hat[entry / n][entry % n].clone())
+                })
+            }),
+            None => product(&inverse, &phi_dot),
         };
-        let omega_hat = shared.matrix(
-            Quantity::ComovingAffineVelocity,
-            &table(n, |a, b| h.velocity[a][b].substitute(&of_spin_hat)),
-        );
+        let omega_hat = shared.matrix(Quantity::ComovingAffineVelocity, &omega_hat);
         let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {
             Vec::new()
         } else {
             let momentum: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
-            let forces: Vec<Polynomial> = (0..n).map(|i| force(Coordinate::P(i))).collect();
+            let forces: Vec<Polynomial> = (0..n).map(|i| rate(&system, Coordinate::P(i))).collect();
             let forces = shared.vector(Quantity::Load, &forces);
             let momentum_hat = shared.vector(Quantity::ComovingMomentum, &times(&inverse, &momentum));
             let inertia_hat = times(&omega_hat, &momentum_hat).iter().map(negative).collect();
             let force_hat = times(&inverse, &forces);
             vec![momentum, forces, momentum_hat, inertia_hat, force_hat]
         };
+        let sum = |mut left: Polynomial, right: &Polynomial| {
+            left.add_scaled(right, &Rational::ONE);
+            left
+        };
+        let (turned, of_kinetic) = (product(&phi_dot, &pi), product(&phi, &kinetic));
+        let of_kinetic_hat = product(&kinetic, &transpose(&inverse));
         let internal = [
             product(&phi, &pi),
-            product(&phi_dot, &pi),
+            table(n, |i, j| sum(turned[i][j].clone(), &of_kinetic[i][j])),
             product(&phi, &push),
             spin_hat,
-            table(n, |a, b| negative(&inertia_hat[a][b])),
+            table(n, |a, b| sum(negative(&inertia_hat[a][b]), &of_kinetic_hat[a][b])),
             moment_hat,
         ];
         system.add(&Load { shared: shared.list, ..Load::default() });
         Self { shared: system.shared, kernels: system.kernels, internal, centre }
     }
+}
+
+/// A system in which nothing moves.
+fn still(chart: &Chart) -> System {
+    let rates = chart.coordinates().into_iter().map(|z| (z, chart.symbol(z), Polynomial::zero())).collect();
+    System { rates, ..System::default() }
+}
+
+fn rate(system: &System, z: Coordinate) -> Polynomial {
+    let found = system.rates.iter().find(|(known, _, _)| *known == z);
+    found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
 }

@@ -1,6 +1,6 @@
-//! Forces and potentials that a field of the model computes.
+//! Forces and potentials that a field of the model or a function of the runtime computes.
 //!
-//! The equations call the field: its results are quantities like any other. What is known of it is what the
+//! The equations call it: its results are quantities like any other. What is known of it is what the
 //! specification says: the form of a force and whether it has power, the class of a potential.
 
 use crate::algebra::kernel::{Asked, Callee, Group};
@@ -16,15 +16,39 @@ use super::group_point::{GroupPoint, inverse};
 use super::shared::{CentreVelocity, Shared, atoms, frame_of};
 use super::term::Frame;
 
-/// A field that computes a force or a potential.
+/// A field, or a function of the runtime, that computes a force or a potential.
 #[derive(Clone, Debug)]
 pub struct Custom {
-    /// Its place among them, from 1.
+    /// Its place among them, from 1; fields come first.
     pub place: usize,
     /// Its name.
     pub name: String,
     /// What it computes.
     pub role: Role,
+    /// Which of both it is.
+    pub by: By,
+}
+
+/// What computes a force or a potential.
+#[derive(Clone, Copy, Debug)]
+pub enum By {
+    /// A field of the model.
+    Field,
+    /// The gravity of a homogeneous ellipsoid on itself, `-3/5 k R_F(Q_1^2, Q_2^2, Q_3^2)` with this `k`.
+    SelfGravity(Expr),
+}
+
+impl By {
+    /// What an energy is in units of what is called for it.
+    pub(super) fn unit(self, arena: &mut Arena) -> Polynomial {
+        match self {
+            Self::Field => Polynomial::constant(Rational::ONE),
+            Self::SelfGravity(strength) => {
+                let three_fifths = &Rational::from(3) * &Rational::one_over(5);
+                Polynomial::normal_form(arena, strength).scaled(&-&three_fifths)
+            }
+        }
+    }
 }
 
 /// What a field computes.
@@ -179,22 +203,38 @@ impl Custom {
         (kernel, affine, centre, (!gyroscopic).then_some(power))
     }
 
+    /// The gravity of a homogeneous ellipsoid on itself.
+    #[must_use]
+    pub fn self_gravity(place: usize, strength: Expr) -> Self {
+        let role = Role::Potential { class: Class::Isotropic, moves: false };
+        Self { place, name: "self_gravity".to_owned(), role, by: By::SelfGravity(strength) }
+    }
+
     /// `Q_tr = -dU/dx` and the force `-(dU/dphi)^T` on `Pi`.
     fn slopes(&self, shared: &mut Shared, chart: &Chart, class: Class, moves: bool) -> Parts {
         let n = chart.dim;
         let (along_x, along_phi) =
             (self.vector(shared.arena, n), self.matrix(shared.arena, Quantity::FieldSlope, n));
-        let negative = |symbol: &Expr| Polynomial::term(vec![*symbol], Rational::MINUS_ONE);
+        let opposite = self.by.unit(shared.arena).scaled(&Rational::MINUS_ONE);
+        let negative = |symbol: &Expr| opposite.mul(&Polynomial::atom(*symbol));
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
         let affine = shared.on_own(chart, &push);
         let centre = match (moves, chart.linear) {
             (true, Some(_)) => along_x.iter().map(negative).collect(),
             _ => vec![Polynomial::zero(); chart.p.len()],
         };
-        let kernel = Kernel {
-            callee: Callee::Custom(self.place, Asked::Slopes(class.number(), moves)),
-            arguments: placed(shared.arena, chart),
-            results: vec![Group::Vector(along_x), Group::Matrix(along_phi.0)],
+        let slopes = Group::Matrix(along_phi.0);
+        let kernel = match self.by {
+            By::Field => Kernel {
+                callee: Callee::Custom(self.place, Asked::Slopes(class.number(), moves)),
+                arguments: placed(shared.arena, chart),
+                results: vec![Group::Vector(along_x), slopes],
+            },
+            By::SelfGravity(_) => Kernel {
+                callee: Callee::EllipsoidalSlopes,
+                arguments: vec![Group::Matrix(chart.placement())],
+                results: vec![slopes],
+            },
         };
         (kernel, affine, centre, None)
     }
@@ -203,12 +243,14 @@ impl Custom {
     pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Kernel)> {
         let Role::Potential { class, moves } = self.role else { return None };
         let energy = arena.symbol(Quantity::FieldPotential.at([self.place]));
-        let kernel = Kernel {
-            callee: Callee::Custom(self.place, Asked::Energy(class.number(), moves)),
-            arguments: placed(arena, chart),
-            results: vec![Group::Scalar(energy)],
+        let (callee, arguments) = match self.by {
+            By::Field => {
+                (Callee::Custom(self.place, Asked::Energy(class.number(), moves)), placed(arena, chart))
+            }
+            By::SelfGravity(_) => (Callee::Ellipsoidal, vec![Group::Matrix(chart.placement())]),
         };
-        Some((Polynomial::atom(energy), kernel))
+        let kernel = Kernel { callee, arguments, results: vec![Group::Scalar(energy)] };
+        Some((self.by.unit(arena).mul(&Polynomial::atom(energy)), kernel))
     }
 
     /// What it leaves of what a chart conserves, whatever the field computes: any force of its form, any slopes of its class.

@@ -5,7 +5,7 @@ use crate::symbol::Quantity;
 
 use super::charts::Chart;
 use super::conserved::{Candidate, Conservation};
-use super::custom::Custom;
+use super::custom::{By, Custom};
 use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
@@ -79,7 +79,8 @@ impl Forces {
 
     /// The time as a symbol, where a field is told it: an input of every program with forces.
     pub fn time(&self, arena: &mut Arena) -> Option<Expr> {
-        (!self.customs.is_empty()).then(|| arena.symbol(Quantity::Time))
+        let asks = self.customs.iter().any(|custom| matches!(custom.by, By::Field));
+        asks.then(|| arena.symbol(Quantity::Time))
     }
 
     /// Do they look the same from every direction of space?

@@ -122,12 +122,6 @@ impl Hamiltonian {
         self.isotropic.is_none() && self.frame != Frame::Flat && !small
     }
 
-    /// The constraint, where velocities and momenta are projected for it; see [`Kinetic::confined`].
-    #[must_use]
-    pub fn confined(&self) -> Option<Constraint> {
-        self.constraint.filter(|_| self.frame != Frame::Flat)
-    }
-
     /// What defines the weight of the internal energy, if it has one.
     #[must_use]
     pub fn weight_definitions(&self) -> Definitions {

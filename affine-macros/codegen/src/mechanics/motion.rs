@@ -92,21 +92,6 @@ impl Motion {
         self.parts.first().and_then(|part| part.constraint)
     }
 
-    /// The same where velocities and momenta are projected for it; otherwise it acts through its multiplier.
-    #[must_use]
-    pub fn confined(&self) -> Option<Constraint> {
-        match &self.inverse {
-            Inverse::Polynomial(h) => h.confined(),
-            Inverse::Factorised(internal) => internal.group(),
-        }
-    }
-
-    /// Does a constraint act through its multiplier?
-    #[must_use]
-    pub fn has_multiplier(&self) -> bool {
-        self.constraint().is_some() && self.confined().is_none()
-    }
-
     /// The frame of velocity and momentum.
     #[must_use]
     pub fn frame(&self) -> Frame {
@@ -162,7 +147,7 @@ impl Motion {
     /// The chart of its own frame with spatial `p`, or without translation.
     pub fn chart(&self, arena: &mut Arena, moving: bool) -> Chart {
         let linear = (moving && !self.masses.are_none()).then_some(Linear::Space);
-        Chart::new(arena, self.dim(), Momentum::of(self.frame()), linear).under(self.confined())
+        Chart::new(arena, self.dim(), Momentum::of(self.frame()), linear).under(self.constraint())
     }
 
     /// The chart of the equations that users of other codes write down: all momenta in the model's frames.
@@ -171,7 +156,7 @@ impl Motion {
         match (translation, self.frame()) {
             (Some((Frame::Body, _)), Frame::Body) => {
                 let chart = Chart::new(arena, self.dim(), Momentum::Body, Some(Linear::Body));
-                chart.under(self.confined())
+                chart.under(self.constraint())
             }
             _ => self.chart(arena, true),
         }

@@ -86,15 +86,13 @@ impl Potential {
     }
 
     fn slopes(arena: &mut Arena, dim: usize, energy: Expr) -> Vec<(Base, Expr)> {
-        let mut slopes = Vec::new();
-        for base in Base::all(dim) {
-            let symbol = base.symbol(arena);
-            let slope = arena.derivative(energy, symbol);
-            if !vanishes(arena, slope) {
-                slopes.push((base, slope));
-            }
-        }
-        slopes
+        let bases: Vec<(Expr, Base)> =
+            Base::all(dim).into_iter().map(|base| (base.symbol(arena), base)).collect();
+        let gradient = arena.gradient(energy, &|found| bases.iter().any(|(symbol, _)| *symbol == found));
+        let slope =
+            |wanted: Expr| gradient.iter().find(|(symbol, _)| *symbol == wanted).map(|(_, slope)| *slope);
+        let slopes = bases.into_iter().filter_map(|(symbol, base)| Some((base, slope(symbol)?)));
+        slopes.filter(|(_, slope)| !vanishes(arena, *slope)).collect()
     }
 
     /// The time, where the energy depends on it.

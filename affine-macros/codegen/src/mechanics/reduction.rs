@@ -143,7 +143,7 @@ impl Reduction {
 
     /// The steps on the equations, in their order.
     fn steps(self, arena: &mut Arena, body: &Body, wanted: Wanted) -> Vec<Self> {
-        let momenta_may_rest = !body.motion.has_multiplier() && !wanted.halves;
+        let momenta_may_rest = !wanted.halves;
         let chart = &self.chart;
         let ways = carried::systems(arena, body, chart, self.system.clone()).into_iter();
         let taken = |(carried, mut system)| {

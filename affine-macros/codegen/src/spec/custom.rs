@@ -1,11 +1,17 @@
-//! `custom(field, ..)`: a field whose type computes a potential or a force.
+//! Summands that are no formulas: `custom(field, ..)`, a field whose type computes a potential or a force, and
+//! `self_gravity(k)`.
 
-use proc_macro2::{Delimiter, Ident, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 
 use super::entries::{Piece, pieces, region, shortened, unwrapped};
+use super::expression::Expression;
+use super::expression_parser::{self, Language};
 use super::names::Named;
 use super::spanned::Spanned;
-use crate::diagnostics::{Diagnostics, ForceMistake, Region};
+use crate::diagnostics::{Diagnostics, ForceMistake, PotentialMistake, Region};
+
+/// The energy of a homogeneous ellipsoid in its own gravity, by name.
+pub(super) const SELF_GRAVITY: &str = "self_gravity";
 
 /// A field that computes a potential or a force.
 #[derive(Clone, Debug)]
@@ -17,6 +23,15 @@ pub struct Custom {
     /// What more is said of it.
     pub mark: Option<Mark>,
     /// `custom(...)`.
+    pub span: Region,
+}
+
+/// A summand `self_gravity(k)`: `-3/5 k R_F(Q_1^2, Q_2^2, Q_3^2)`, the energy of a homogeneous ellipsoid in its own gravity.
+#[derive(Clone, Debug)]
+pub struct SelfGravity {
+    /// `k = G m^2/r`, with the mass and the radius of the ball at `phi = 1`.
+    pub strength: Expression,
+    /// `self_gravity(k)`.
     pub span: Region,
 }
 
@@ -127,9 +142,17 @@ impl Place {
     }
 }
 
-/// Takes the summands `custom(...)` out of a sum; what is left of it.
-pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec<Custom>, Option<Piece>) {
-    let mut customs = Vec::new();
+/// A summand that is no formula.
+pub(super) enum Summand {
+    /// `custom(...)`.
+    Field(Custom),
+    /// `self_gravity(k)`, among potentials.
+    SelfGravity(SelfGravity),
+}
+
+/// Takes the summands that are no formulas out of a sum; what is left of it.
+pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec<Summand>, Option<Piece>) {
+    let mut taken = Vec::new();
     let mut rest: Vec<TokenTree> = Vec::new();
     let mut summand: Vec<TokenTree> = Vec::new();
     let mut sign: Option<TokenTree> = None;
@@ -151,7 +174,14 @@ pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec
             {
                 let at = Region { start: name.span(), end: group.span() };
                 let list = pieces(group.stream(), group.span_close());
-                customs.extend(custom(list, at, place, found));
+                taken.extend(custom(list, at, place, found).map(Summand::Field));
+            }
+            [TokenTree::Ident(name), TokenTree::Group(group)]
+                if name == SELF_GRAVITY
+                    && group.delimiter() == Delimiter::Parenthesis
+                    && place == Place::Potential =>
+            {
+                taken.extend(self_gravity(name.span(), group, found).map(Summand::SelfGravity));
             }
             _ => {
                 rest.extend(sign.take().filter(|_| !rest.is_empty()));
@@ -164,7 +194,22 @@ pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec
         }
     }
     let rest = region(&rest).map(|at| Piece { tokens: rest, at });
-    (customs, rest)
+    (taken, rest)
+}
+
+/// The strength of a body's gravity on itself.
+fn self_gravity(name: Span, group: &Group, found: &mut Diagnostics) -> Option<SelfGravity> {
+    let span = Region { start: name, end: group.span_close() };
+    let mut list = pieces(group.stream(), group.span_close()).into_iter();
+    let (Some(Piece { tokens, at }), None) = (list.next(), list.next()) else {
+        let written = pieces(group.stream(), group.span_close()).len();
+        let mistake =
+            PotentialMistake::ArgumentCount { name: SELF_GRAVITY, parameters: &["k"], found: written };
+        found.report(span, mistake);
+        return None;
+    };
+    let strength = expression_parser::parse(tokens, at, Language::Coefficient, found).ok()?;
+    Some(SelfGravity { strength, span })
 }
 
 /// The field and what is said of it.

@@ -3,7 +3,7 @@
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::parse::Parser;
 
-use super::custom::{self, Custom};
+use super::custom::{self, Custom, SelfGravity, Summand};
 use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::item::Item;
@@ -33,6 +33,7 @@ pub(super) struct Arguments {
     group: Option<Spanned<PlacementGroup>>,
     potential: Option<Potential>,
     customs: Vec<Custom>,
+    self_gravity: Vec<SelfGravity>,
     dissipation: Vec<Term>,
     require: Vec<Spanned<Requirement>>,
     emit: Vec<Spanned<Capability>>,
@@ -56,6 +57,7 @@ impl Arguments {
             group,
             potential,
             customs,
+            self_gravity,
             dissipation,
             require,
             emit,
@@ -77,6 +79,7 @@ impl Arguments {
             group,
             potential,
             customs,
+            self_gravity,
             dissipation,
             require,
             emit,
@@ -93,7 +96,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let mut metric = [None, None];
     let (mut require, mut emit) = (Vec::new(), Vec::new());
     let (mut constraint, mut energy, mut group) = (None, None, None);
-    let (mut dissipation, mut customs) = (Vec::new(), Vec::new());
+    let (mut dissipation, mut customs, mut self_gravity) = (Vec::new(), Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
         match entry.key {
@@ -110,7 +113,9 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
                 let piece = expect_value(entry, found).ok();
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
-            Key::Potential => energy = potential(expect_value(entry, found), at, &mut customs, found),
+            Key::Potential => {
+                energy = potential(expect_value(entry, found), at, (&mut customs, &mut self_gravity), found)
+            }
             Key::Forces => forces(expect_value(entry, found), &mut customs, found),
             Key::Dissipation => {
                 let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
@@ -142,6 +147,7 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
         group,
         potential: energy,
         customs,
+        self_gravity,
         dissipation,
         require,
         emit,
@@ -297,11 +303,16 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
 fn potential(
     piece: Result<Piece, Reported>,
     key: Span,
-    customs: &mut Vec<Custom>,
+    (customs, self_gravity): (&mut Vec<Custom>, &mut Vec<SelfGravity>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let (fields, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
-    customs.extend(fields);
+    let (summands, rest) = custom::taken(piece.ok()?, custom::Place::Potential, found);
+    for summand in summands {
+        match summand {
+            Summand::Field(custom) => customs.push(custom),
+            Summand::SelfGravity(gravity) => self_gravity.push(gravity),
+        }
+    }
     let Piece { tokens, at } = rest?;
     let energy = expression_parser::parse(tokens, at, Language::Potential(&[]), found).ok()?;
     Some(Potential { key: key.into(), energy, span: at })
@@ -310,8 +321,11 @@ fn potential(
 /// `forces = ...`.
 fn forces(piece: Result<Piece, Reported>, customs: &mut Vec<Custom>, found: &mut Diagnostics) {
     let Ok(piece) = piece else { return };
-    let (fields, rest) = custom::taken(piece, custom::Place::Forces, found);
-    customs.extend(fields);
+    let (summands, rest) = custom::taken(piece, custom::Place::Forces, found);
+    customs.extend(summands.into_iter().filter_map(|summand| match summand {
+        Summand::Field(custom) => Some(custom),
+        Summand::SelfGravity(_) => None,
+    }));
     custom::only(rest, custom::Place::Forces, found);
 }
 

@@ -1,6 +1,6 @@
 //! A model as the attribute and the struct below it state it.
 
-use super::custom::Custom;
+use super::custom::{Custom, SelfGravity};
 use super::expression::Expression;
 use super::item::Item;
 use super::momentum_side::MomentumKind;
@@ -31,6 +31,8 @@ pub struct Spec {
     pub potential: Option<Potential>,
     /// The summands `custom(...)` of `potential` and `forces`, in the user's order.
     pub customs: Vec<Custom>,
+    /// The summands `self_gravity(k)` of `potential`.
+    pub self_gravity: Vec<SelfGravity>,
     /// The terms of `dissipation(...)`, in the user's order, each kind at most once.
     pub dissipation: Vec<Term>,
     /// `group = ...`; GL(n, R) without it.
@@ -128,17 +130,13 @@ impl Spec {
         self.kinetic.iter().find(|term| term.kind.value == kind)
     }
 
-    /// Is a metric stated?
-    #[must_use]
-    pub fn has_metrics(&self) -> bool {
-        self.metrics.iter().any(Option::is_some)
-    }
-
-    /// Every coefficient of the kinetic energy, of the Hamiltonian and of the dissipation, and every entry of the metrics.
+    /// Every coefficient of the kinetic energy, of the Hamiltonian and of the dissipation, every entry of the metrics, and the
+    /// strengths of self-gravity.
     pub fn coefficients(&self) -> impl Iterator<Item = &Expression> {
         let stated = self.hamiltonian.iter().flatten().flat_map(|term| term.value.expressions());
         let metrics = self.metrics.iter().flatten().flat_map(|metric| metric.value.expressions());
-        self.forms().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics)
+        let strengths = self.self_gravity.iter().map(|gravity| &gravity.strength);
+        self.forms().flat_map(|term| term.value.expressions()).chain(stated).chain(metrics).chain(strengths)
     }
 
     /// The name and the place of the first translation term, on either side.

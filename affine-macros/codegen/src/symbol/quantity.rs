@@ -49,15 +49,15 @@ quantities! {
     IsochoricDeviator "isochoric_deviator" IsochoricDeviatorSquared "isochoric_deviator_squared"
     // Counted from the undeformed state.
     Excess "excess" ExcessDeterminant "excess_det" ExcessDilatation "excess_dilatation"
-    Strain "strain" StrainMinors "strain_minors" AxialStrain "strain_on_axis"
+    Strain "strain" StrainSquare "strain_square" StrainMinors "strain_minors" AxialStrain "strain_on_axis"
     SpatialAxialStrain "spatial_strain_on_axis" InverseStrain "inverse_strain"
     CofactorDifference "cofactor_difference" CofactorExcess "cofactor_excess"
-    Deviator "deviator" DeviatorSquared "deviator_squared" MeanSquareStretch "mean_square_stretch"
+    Deviator "deviator" AxialDeviator "deviator_on_axis" DeviatorSquared "deviator_squared" MeanSquareStretch "mean_square_stretch"
     PlacementSum "phi_sum" PlacementDifference "phi_difference" SquareDifference "square_difference"
     BesideGreen "beside_green" BesideFinger "beside_finger" BesideDeterminant "beside_det"
     LessOne "less" MoreOne "more"
     // Potentials.
-    Raised "raised" Pressure "pressure" Tension "tension" Stress "stress" Piola "piola"
+    Raised "raised" Pressure "pressure" Tension "tension" Stress "stress" MeanStress "mean_stress" Piola "piola"
     Swelling "swelling" Offset "offset" SlopeByGreen "slope_green" SlopeByFinger "slope_finger"
     SlopeByPlacement "slope_phi" SlopeByPosition "slope_x" SlopeByPulledBack "slope_pulled_back"
     PulledBack "pulled_back" PushedForward "pushed_forward" PulledBackSquare "pulled_back_square"

@@ -293,6 +293,7 @@ fn forces_of_fields() {
     let top = "dalembert = diag(2, 2, 3)";
     let of_class = |class: &str| model(top, &format!("potential = custom(w, {class})"));
     assert_eq!(of_class("isotropic"), ["Energy", "Spin", "SpinNorm", "Vort_12"]);
+    assert_eq!(model(top, "potential = self_gravity(2)"), of_class("isotropic"));
     assert_eq!(of_class("green"), ["Energy", "Spin", "SpinNorm"]);
     assert_eq!(of_class("finger"), ["Energy", "Vort_12"]);
     assert_eq!(of_class("general"), ["Energy"]);

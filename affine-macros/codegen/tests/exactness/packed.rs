@@ -7,6 +7,7 @@ use affine_codegen::ir::{Op, Program};
 use affine_codegen::symbol::Symbol;
 use affine_oracle::Random;
 
+use super::in_vectors::run;
 use super::models::{FAMILIES, Sample, TRANSLATIONS, derived};
 use super::points::{fraction, own};
 
@@ -21,7 +22,7 @@ fn agrees(model: &Model, random: &mut Random) -> Option<(Packed, usize)> {
     };
     let expected = program.run(&input);
     assert!(expected.is_some(), "the scalar program runs");
-    assert_eq!(packed.run(&input), expected);
+    assert_eq!(run(&packed, &input), expected);
     in_order(&packed);
     Some((packed, cost))
 }

@@ -3,34 +3,21 @@
 //! With `x' = A x`, `phi' = A phi B^-1`: `Q' = A Q A^-1`, `Q_hat' = B Q_hat B^-1`, `Q_tr' = A^-T Q_tr`,
 //! `dU/dx' = A^-T dU/dx`, `dU/dphi' = A^-T dU/dphi B^T`. No power changes: `tr(Q' Omega') = tr(Q Omega)`.
 
-use super::{Rows, asked, components, matrix, place, rows};
-use crate::force::{Comoving, Force, Form, Motion, Spatial, Translation};
+use super::{Rows, Told, asked, components, matrix, place, rows};
+use crate::force::{Comoving, Force, Form, Spatial, Translation};
 use crate::frames::Vector;
 use crate::metrics::Bases;
 use crate::potential::{Place, Potential, Slopes};
 use crate::scalar::Scalar;
 
-/// A motion in the user's bases, from one in orthonormal ones.
-fn moving<const N: usize, T: Scalar>(
-    bases: &Bases<N, T>,
-    t: T,
-    [x, x_dot]: [[T; N]; 2],
-    [phi, phi_dot]: [Rows<N, T>; 2],
-) -> Motion<N, T> {
-    let vector = |components: [T; N]| bases.space_inverse * Vector::<N, T>::from(components);
-    let placement = |rows: Rows<N, T>| bases.space_inverse * matrix(rows) * bases.body;
-    Motion { t, x: vector(x), phi: placement(phi), x_dot: vector(x_dot), phi_dot: placement(phi_dot) }
-}
-
 fn asked_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
     force: &F,
     bases: &Bases<N, T>,
-    t: T,
-    vectors: [[T; N]; 2],
-    placements: [Rows<N, T>; 2],
+    (t, x, phi, x_dot, phi_dot): Told<N, T>,
 ) -> <F::Form as Form<N>>::Value<T> {
-    let Motion { t, x, phi, x_dot, phi_dot } = moving(bases, t, vectors, placements);
-    asked::<N, GYROSCOPIC, T, F>(force, t, x.into(), rows(&phi), x_dot.into(), rows(&phi_dot))
+    let vector = |entries: [T; N]| components(&(bases.space_inverse * Vector::<N, T>::from(entries)));
+    let placement = |entries: Rows<N, T>| rows(&(bases.space_inverse * matrix(entries) * bases.body));
+    asked::<N, GYROSCOPIC, T, F>(force, (t, vector(x), placement(phi), vector(x_dot), placement(phi_dot)))
 }
 
 /// `Q`.
@@ -38,13 +25,9 @@ fn asked_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
 pub fn spatial_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Spatial>>(
     force: &F,
     bases: &Bases<N, T>,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> Rows<N, T> {
-    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, t, [x, x_dot], [phi, phi_dot]);
+    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, told);
     rows(&(bases.space * force * bases.space_inverse))
 }
 
@@ -53,13 +36,9 @@ pub fn spatial_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Fo
 pub fn comoving_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Comoving>>(
     force: &F,
     bases: &Bases<N, T>,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> Rows<N, T> {
-    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, t, [x, x_dot], [phi, phi_dot]);
+    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, told);
     rows(&(bases.body * force * bases.body_inverse))
 }
 
@@ -73,13 +52,9 @@ pub fn translational_force_in<
 >(
     force: &F,
     bases: &Bases<N, T>,
-    t: T,
-    x: [T; N],
-    phi: Rows<N, T>,
-    x_dot: [T; N],
-    phi_dot: Rows<N, T>,
+    told: Told<N, T>,
 ) -> [T; N] {
-    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, t, [x, x_dot], [phi, phi_dot]);
+    let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, told);
     components(&(bases.space_inverse.transpose() * force))
 }
 

@@ -5,6 +5,8 @@
 //! Veselic, SIAM J. Matrix Anal. Appl. 13 (1992) 1204), which the eigenvalues of `phi^T phi` lose. The number of sweeps is
 //! fixed and nothing is compared, so that lanes and other numbers run the same code.
 
+use core::array::from_fn;
+
 use crate::frames::Matrix;
 use crate::scalar::{Real, Scalar};
 
@@ -32,9 +34,8 @@ pub fn principal_stretches<const N: usize, T: Scalar>(
     let norm = phi.as_flattened().iter().fold(T::zero(), |sum, entry| entry.fma(*entry, sum)).sqrt();
     let scale = T::one() / norm;
     // Columns as arrays: rotations mix whole columns.
-    let mut stretched: [[T; N]; N] = core::array::from_fn(|a| core::array::from_fn(|i| phi[i][a] * scale));
-    let mut axes: [[T; N]; N] =
-        core::array::from_fn(|a| core::array::from_fn(|b| if a == b { T::one() } else { T::zero() }));
+    let mut stretched: [[T; N]; N] = from_fn(|a| from_fn(|i| phi[i][a] * scale));
+    let mut axes: [[T; N]; N] = from_fn(|a| from_fn(|b| if a == b { T::one() } else { T::zero() }));
     for _ in 0..sweeps(N) {
         for a in 0..N {
             for b in a + 1..N {
@@ -44,7 +45,7 @@ pub fn principal_stretches<const N: usize, T: Scalar>(
             }
         }
     }
-    let stretches = core::array::from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
+    let stretches = from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
     let stretched = stretched.map(|column| column.map(|entry| entry * norm));
     (stretches, transposed(stretched), transposed(axes))
 }
@@ -67,11 +68,9 @@ pub fn principal_log_stretches<const N: usize, T: Scalar>(
     let scale = T::one() / norm;
     // `phi - 1` is not larger than this unit, small as a body may be.
     let unit = T::one() / (square + T::constant(N as f64, 0.0)).sqrt();
-    let mut stretched: [[T; N]; N] = core::array::from_fn(|a| core::array::from_fn(|i| phi[i][a] * scale));
-    let mut axes: [[T; N]; N] =
-        core::array::from_fn(|a| core::array::from_fn(|b| if a == b { T::one() } else { T::zero() }));
-    let mut excess: [[T; N]; N] =
-        core::array::from_fn(|a| core::array::from_fn(|i| (phi[i][a] - axes[a][i]) * unit));
+    let mut stretched: [[T; N]; N] = from_fn(|a| from_fn(|i| phi[i][a] * scale));
+    let mut axes: [[T; N]; N] = from_fn(|a| from_fn(|b| if a == b { T::one() } else { T::zero() }));
+    let mut excess: [[T; N]; N] = from_fn(|a| from_fn(|i| (phi[i][a] - axes[a][i]) * unit));
     let weights = Weights {
         strain: excess.as_flattened().iter().fold(T::zero(), sum_of_squares),
         size: square * (unit * unit),
@@ -87,8 +86,8 @@ pub fn principal_log_stretches<const N: usize, T: Scalar>(
             }
         }
     }
-    let stretches = core::array::from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
-    let logarithms = core::array::from_fn(|a| {
+    let stretches = from_fn(|a| dot(&stretched[a], &stretched[a]).sqrt() * norm);
+    let logarithms = from_fn(|a| {
         // sinh q = (Q^2 - 1)/(2 Q)
         let below = unit * (unit * stretches[a]);
         (weights.rise(&axes[a], &excess[a]) / (below + below)).asinh()
@@ -144,7 +143,7 @@ const NO_STRAIN: f64 = 1e-6;
 /// Log-stretches `q_a = ln Q_a` of a placement, in no order, with the errors of [`principal_log_stretches`].
 #[must_use]
 pub fn log_stretches<const N: usize, T: Real>(phi: &Matrix<N, T>) -> [T; N] {
-    principal_log_stretches(core::array::from_fn(|i| core::array::from_fn(|a| phi[(i, a)]))).1
+    principal_log_stretches(from_fn(|i| from_fn(|a| phi[(i, a)]))).1
 }
 
 /// Cosine and sine of a rotation of two columns.
@@ -164,7 +163,12 @@ impl<T: Scalar> Angle<T> {
 
     /// The smaller angle that makes `[[u, w], [w, v]]` diagonal, from `v - u` and `2 w`; all of the order of `size` at most.
     /// `tan = sign(v - u) 2w/(|v - u| + sqrt((v - u)^2 + (2w)^2))` (Rutishauser, Numer. Math. 9 (1966) 1).
+    ///
+    /// Numbers with a derivative choose among the axes of stretches that coincide those along which the derivative is diagonal,
+    /// as perturbations of degenerate eigenvalues do: sums `R diag(f(Q)) R^T` then have theirs without that of the axes, which
+    /// has no bound there.
     fn diagonalising(difference: T, double: T, size: T) -> Self {
+        let [difference, double] = T::told_apart([difference, double], size);
         let length = difference.fma(difference, double * double).sqrt();
         let below = size.fma(T::constant(NO_ANGLE, 0.0), difference.abs() + length);
         let tangent = T::one().copysign(difference) * double / below;
@@ -190,5 +194,5 @@ fn dot<const N: usize, T: Scalar>(left: &[T; N], right: &[T; N]) -> T {
 }
 
 fn transposed<const N: usize, T: Copy>(rows: [[T; N]; N]) -> [[T; N]; N] {
-    core::array::from_fn(|i| core::array::from_fn(|j| rows[j][i]))
+    from_fn(|i| from_fn(|j| rows[j][i]))
 }

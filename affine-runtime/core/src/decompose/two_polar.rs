@@ -141,8 +141,7 @@ impl<const N: usize> TwoPolar<N> {
                     (overlap[(a, c)] + overlap[(a + 1, d)], overlap[(a + 1, c)] - overlap[(a, d)]);
                 (libm::hypot(even, odd), libm::atan2(odd, even))
             };
-            let best =
-                pairs.map(planar).fold((0.0, 0.0), |best, one| if one.0 > best.0 { one } else { best });
+            let best = pairs.map(planar).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
             let (sine, cosine) = libm::sincos(best.1);
             for frame in [&mut self.left, &mut self.right] {
                 let (first, second) = (frame.column(a).clone_owned(), frame.column(a + 1).clone_owned());
@@ -162,8 +161,7 @@ fn nearest_relabelling<const N: usize>(overlap: &Matrix<N>) -> Matrix<N> {
         let mut signs: [f64; N] = core::array::from_fn(|a| if entry(a) < 0.0 { -1.0 } else { 1.0 });
         let negative = signs.iter().filter(|sign| **sign < 0.0).count() % 2 == 1;
         if negative != odd {
-            let weakest =
-                (1..N).fold(0, |least, a| if entry(a).abs() < entry(least).abs() { a } else { least });
+            let weakest = (1..N).fold(0, |k, a| if entry(a).abs() < entry(k).abs() { a } else { k });
             signs[weakest] = -signs[weakest];
         }
         let total: f64 = (0..N).map(|a| signs[a] * entry(a)).sum();

@@ -4,9 +4,11 @@ use core::fmt;
 
 use super::debug_as_displayed;
 use crate::divisor::{HIGHEST_ORDER, LOWEST_ORDER};
+use crate::quantity::Word;
 
 /// A setting of a simulation that makes no sense.
 #[derive(Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Setting {
     /// No end time was given.
@@ -14,20 +16,25 @@ pub enum Setting {
     /// A time is not finite.
     Time {
         /// Name of the time in the settings.
-        name: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        name: Word,
         /// Its value.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         given: f64,
     },
     /// The interval is so short, or so long, that numbers in it are not: its length is 0, or at least 1e-300 and a double.
     Interval {
         /// Start of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t0: f64,
         /// End of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t_end: f64,
     },
     /// The tolerance is not in `1e-15 <= eps < 1`.
     Tolerance {
         /// Its value.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         given: f64,
     },
     /// No step is allowed.
@@ -50,29 +57,35 @@ pub enum Setting {
     /// RATTLE was asked for, and the model is not isochoric.
     NotIsochoric {
         /// Name of the model.
-        model: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        model: Word,
     },
-    /// RATTLE was asked for, and the Hamiltonian is not `T(Pi) + U(phi)`.
+    /// RATTLE was asked for, and the energy is not that of masses, or a force depends on velocities.
     NotSeparable {
         /// Name of the model.
-        model: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        model: Word,
     },
     /// The start is off the constraint `det phi = 1` or its velocity off `tr(phi^-1 phi_dot) = 0`.
     OffConstraint {
         /// The larger of the two relative defects.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         defect: f64,
     },
     /// The method needs a capability that the model was not given.
     NotEmitted {
         /// Name of the model.
-        model: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        model: Word,
         /// What `emit(...)` should list.
-        key: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        key: Word,
     },
     /// An event asks for a component that vectors of this dimension do not have.
     EventIndex {
         /// Name of the event.
-        event: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        event: Word,
         /// The index.
         index: usize,
     },
@@ -80,7 +93,8 @@ pub enum Setting {
     /// events.
     Checkpoint {
         /// Name of the model.
-        model: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        model: Word,
     },
     /// There is no such shard of an ensemble.
     Shard {
@@ -92,19 +106,25 @@ pub enum Setting {
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         given: f64,
         /// Start of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t0: f64,
         /// End of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t_end: f64,
     },
     /// The spacing of outputs is not positive, not finite, or much too fine for the interval.
     OutputSpacing {
         /// The spacing.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         dt: f64,
         /// Start of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t0: f64,
         /// End of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t_end: f64,
     },
     /// An output time lies outside the interval.
@@ -112,10 +132,13 @@ pub enum Setting {
         /// Its index in the list.
         index: usize,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
         /// Start of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t0: f64,
         /// End of the interval.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t_end: f64,
     },
     /// Output times do not follow one another in the direction of time.
@@ -123,37 +146,47 @@ pub enum Setting {
         /// Index of the later one in the list.
         index: usize,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
         /// The time listed before it.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         before: f64,
     },
     /// A `Flow` was asked for a time outside its last step.
     OutsideStep {
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
         /// Where the step began.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         from: f64,
         /// The time reached.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         to: f64,
     },
     /// A run was asked for a time, and has not kept what lies between its outputs.
     NotDense {
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// A run was asked for a time outside of it.
     OutsideRun {
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
         /// Where the run began.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         from: f64,
         /// Where it ended.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         to: f64,
     },
     /// `Method::ClosedForm` was asked for and there is none.
     NoClosedForm {
         /// Name of the model.
-        model: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        model: Word,
     },
 }
 
@@ -192,7 +225,7 @@ impl fmt::Display for Setting {
             ),
             Setting::NotSeparable { model } => write!(
                 f,
-                "the Hamiltonian of {model} is not T(Pi) + U(phi) with T quadratic, as in the model of d'Alembert: use \
+                "{model} is not a body of masses, `kinetic(dalembert = ..)`, under forces that depend on positions alone: use \
                  Method::Gauss or Method::Automatic, which take steps on the group"
             ),
             Setting::OffConstraint { defect } => write!(

@@ -5,6 +5,7 @@ use core::fmt;
 use super::debug_as_displayed;
 use super::setting::Setting;
 use crate::description::{Bound, Guard};
+use crate::quantity::Word;
 
 /// Why, when and at which step a run stopped.
 #[derive(Clone, Copy, PartialEq)]
@@ -19,6 +20,7 @@ pub struct Stop {
 
 /// Why a run stopped.
 #[derive(Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Reason {
     /// A setting is wrong; the run did not begin.
@@ -28,11 +30,13 @@ pub enum Reason {
     /// The placement lost its orientation or degenerated.
     Placement {
         /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
         rate: Option<f64>,
         /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
         /// that of the dense output of the step in which it lies; the time of a start that is bad.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The motion leaves the states at which the potential has a value, or starts at one where it has none.
@@ -40,25 +44,32 @@ pub enum Reason {
         /// The part of the potential, and the function that loses its sign.
         guard: Guard,
         /// The value of that function: the first of another sign, or the last before steps end.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         value: f64,
         /// The time: to the rounding of times that of the dense output of the step in which the sign is lost.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The energy is not finite: a sum, a power or an exponential function in it has left the range of numbers.
     Energy {
         /// `H`.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         energy: f64,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The energy, less the work of the forces that no potential has, is no longer what it was at the start: the steps have
     /// lost the motion, as they do where they pass over a singularity.
     EnergyLost {
         /// `|H(t) - H(t0) - W(t)|`.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         defect: f64,
         /// The largest `|T| + |U|` met; a tenth of it is allowed, or what an error of ten tolerances in the placement is worth.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         scale: f64,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The mass matrix, which depends on the placement, became degenerate or changed its signature: the momentum no
@@ -66,36 +77,45 @@ pub enum Reason {
     Degenerate {
         /// The weakest pivot of its factorisation, relative to what it is a difference of, at the first bad placement,
         /// or at the last good one where no step leads on from it; see [`Regularity`](crate::model::Regularity).
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         weakest: f64,
         /// The time of that placement.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// A method that forms `det phi`, Runge-Kutta-Nystrom or splitting under a potential in `q` or `D`, where it or its
     /// inverse is no normal number.
     Range {
         /// The mean log-stretch of the first such placement.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         q: f64,
         /// The time of that placement.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The closed form at a time so late that rounding alone turns the body by a radian, or stretches it by a factor of
     /// `e`: `eps rate (t - t0) >= 1`.
     Unresolved {
         /// What angles and log-stretches grow by in a unit of time, at most: [`Geodesic::rate`](crate::geodesic::Geodesic::rate).
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         rate: f64,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The error stays above the tolerance however short the step.
     StepUnderflow {
         /// The tolerance.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         tolerance: f64,
     },
     /// The equations of an implicit step have no solution, or none that the iteration finds.
     NoSolution {
         /// The least defect met, relative to the largest component of the reduced state.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         residual: f64,
         /// The longest step allowed.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         step: f64,
     },
     /// The largest number of steps is used up.
@@ -106,8 +126,10 @@ pub enum Reason {
     /// The function of an event is not a number, so that nothing is known of its sign.
     Event {
         /// Name of the event.
-        event: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        event: Word,
         /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
     /// The changes of an event accumulate, and no motion leads beyond that time: they follow one another in intervals that
@@ -115,9 +137,11 @@ pub enum Reason {
     /// function away at zero, through which it would go at once, as that of a ball at rest on a floor.
     Accumulation {
         /// Name of the event.
-        event: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        event: Word,
         /// The time at which they accumulate. The run ends with the last change before, when what is left is less than 6e-8 of
         /// the time since the intervals began to shrink, or bounces are lost in the rounding of the function.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
         /// How often the event has changed the point.
         count: u64,
@@ -125,7 +149,8 @@ pub enum Reason {
     /// The point that an event should have been changed to is none.
     Change {
         /// Name of the event.
-        event: &'static str,
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        event: Word,
     },
     /// A callback said `Break`.
     Interrupted(Callback),
@@ -133,6 +158,7 @@ pub enum Reason {
 
 /// The callback that ended a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Callback {
     /// `Simulation::progress`.
     Progress,
@@ -246,16 +272,29 @@ debug_as_displayed!([] Stop, [] Reason);
 
 impl std::error::Error for Stop {}
 
-/// The reason in words, with time and steps.
+/// The reason in words, for who reads it, and as it is, for programs; with time and steps.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Written {
+    reason: String,
+    cause: Reason,
+    t: f64,
+    steps: u64,
+}
+
 #[cfg(feature = "serde")]
 impl serde::Serialize for Stop {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        let mut stop = serializer.serialize_struct("Stop", 3)?;
-        stop.serialize_field("reason", &format_args!("{}", self.reason))?;
-        stop.serialize_field("t", &self.t)?;
-        stop.serialize_field("steps", &self.steps)?;
-        stop.end()
+        let Self { reason, t, steps } = *self;
+        Written { reason: format!("{reason}"), cause: reason, t, steps }.serialize(serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Stop {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Written { cause: reason, t, steps, .. } = Written::deserialize(deserializer)?;
+        Ok(Self { reason, t, steps })
     }
 }
 

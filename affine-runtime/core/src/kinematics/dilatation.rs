@@ -168,7 +168,7 @@ fn log_determinant_near_identity<const N: usize, T: Real>(mut excess: Matrix<N, 
     let mut sum = T::zero();
     for k in 0..N {
         let pivot = excess[(k, k)];
-        sum += ln_1p(pivot);
+        sum += pivot.ln_1p();
         for row in k + 1..N {
             let factor = excess[(row, k)] / (T::one() + pivot);
             for column in k + 1..N {
@@ -178,13 +178,6 @@ fn log_determinant_near_identity<const N: usize, T: Real>(mut excess: Matrix<N, 
         }
     }
     sum
-}
-
-/// `ln(1 + x)` for `|x| < 1/2`. The rounding error of `1 + x` cancels in the quotient (Goldberg, "What every
-/// computer scientist should know about floating-point arithmetic", 1991, theorem 4).
-fn ln_1p<T: Real>(x: T) -> T {
-    let shifted = T::one() + x;
-    if shifted == T::one() { x } else { shifted.ln() * x / (shifted - T::one()) }
 }
 
 /// The matrix with powers of two taken out of its rows, then of its columns, so that the largest entry of each

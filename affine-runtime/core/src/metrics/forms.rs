@@ -29,8 +29,7 @@ pub fn rebased_tensor<const N: usize, const M: usize, T: Scalar>(
             (0..M).fold(T::zero(), |sum, l| sum + tensor[k][l] * weight(l, carried))
         })
     });
-    let entry =
-        |k: usize, l: usize| (0..M).fold(T::zero(), |sum, whole| sum + weight(whole, k) * half[whole][l]);
+    let entry = |k: usize, l: usize| (0..M).fold(T::zero(), |sum, m| sum + weight(m, k) * half[m][l]);
     core::array::from_fn(|k| core::array::from_fn(|l| entry(k.min(l), k.max(l))))
 }
 

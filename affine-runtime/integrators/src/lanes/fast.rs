@@ -1,7 +1,7 @@
 //! A double with fast elementary functions.
 
 use super::elementary;
-use affine_core::scalar::{Real, Scalar};
+use affine_core::scalar::Scalar;
 
 /// Largest error of a fast elementary function in units of the last place of its value, where that is a normal number.
 pub const FAST_ULP: f64 = 2.5;
@@ -57,24 +57,6 @@ impl Scalar for Fast {
         tanh = elementary::tanh,
         asinh = elementary::asinh
     );
-}
-
-impl Real for Fast {
-    const EPSILON: Self = Self(f64::EPSILON);
-    fn hypot(self, other: Self) -> Self {
-        Self(self.0.hypot(other.0))
-    }
-    fn is_finite(self) -> bool {
-        self.0.is_finite()
-    }
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self.0
-    }
-    #[inline(always)]
-    fn from_f64(value: f64) -> Self {
-        Self(value)
-    }
 }
 
 super::operators::operators!([] Fast, f64);

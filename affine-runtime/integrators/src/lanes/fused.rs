@@ -65,22 +65,4 @@ impl<S: Real> Scalar for Fused<S> {
     functions!(sqrt, cbrt, inverse_cbrt, exp, exp_m1, ln, ln_1p, sin, cos, tan, sinh, cosh, tanh, asinh, abs);
 }
 
-impl<S: Real> Real for Fused<S> {
-    const EPSILON: Self = Self(S::EPSILON);
-    fn hypot(self, other: Self) -> Self {
-        Self(self.0.hypot(other.0))
-    }
-    fn is_finite(self) -> bool {
-        self.0.is_finite()
-    }
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self.0.to_f64()
-    }
-    #[inline(always)]
-    fn from_f64(value: f64) -> Self {
-        Self(S::from_f64(value))
-    }
-}
-
 super::operators::operators!([S] Fused<S>, S);

@@ -1,6 +1,6 @@
 //! Arithmetic of a number that wraps another one.
 
-/// Zero, one and the operators of a wrapper, those of what it wraps.
+/// Zero, one, the operators of a wrapper and what is real of it, those of what it wraps.
 macro_rules! operators {
     ([$($parameter:ident)?] $wrapper:ty, $inner:ty) => {
         impl$(<$parameter: affine_core::scalar::Real>)? num_traits::Zero for $wrapper {
@@ -25,6 +25,24 @@ macro_rules! operators {
             #[inline(always)]
             fn neg(self) -> Self {
                 Self(-self.0)
+            }
+        }
+
+        impl$(<$parameter: affine_core::scalar::Real>)? affine_core::scalar::Real for $wrapper {
+            const EPSILON: Self = Self(<$inner>::EPSILON);
+            fn hypot(self, other: Self) -> Self {
+                Self(affine_core::scalar::Real::hypot(self.0, other.0))
+            }
+            fn is_finite(self) -> bool {
+                affine_core::scalar::Real::is_finite(self.0)
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self.0.to_f64()
+            }
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self(<$inner>::from_f64(value))
             }
         }
 

@@ -1,13 +1,14 @@
 //! The collocation polynomial of the last step: states within it, and where the next one would lead.
 
-use super::Radau;
+use super::RadauSteps;
 use super::coefficients::MOST_STAGES;
 use super::solve::{Jacobian, Stages, plus};
+use crate::drive::Control;
 use crate::lie::Coordinates;
 use affine_core::__private::numerics::norm;
 use affine_core::model::StateVector;
 
-impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> Radau<S, F, J, C> {
+impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>> RadauSteps<S, F, J, C> {
     /// Where the polynomial of the last step would lead, unless that is too far to be believed.
     pub(super) fn continued(&self, h: f64) -> Option<Stages<S>> {
         if self.h == 0.0 {
@@ -50,7 +51,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
 
     /// The state at a time within the last step, by the collocation polynomial; without evaluations, but for the work up to
     /// there. The state reached where no step has been taken.
-    pub fn at(&mut self, t: f64) -> S {
+    pub(super) fn between(&self, t: f64, control: &mut Control) -> S {
         if self.h == 0.0 || t == self.t {
             return self.end.value;
         }
@@ -58,7 +59,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let mut state = self.inside((t - from) / self.h);
         if let Some(work) = self.work {
             let done = work.along(from, t - from, |t| (self.f)(t, &self.inside((t - from) / self.h)));
-            self.statistics.evaluations += work.evaluations();
+            control.statistics.evaluations += work.evaluations();
             state.as_mut()[work.place] = self.begin.value.as_ref()[work.place] + done;
         }
         state

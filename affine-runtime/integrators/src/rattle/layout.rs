@@ -25,8 +25,6 @@ pub(super) struct Layout<const N: usize> {
     count: usize,
     /// `dT'_i/dPi_k`, positions by momenta.
     inverse_mass: [[f64; MOST]; MOST],
-    /// Its inverse.
-    mass: [[f64; MOST]; MOST],
 }
 
 impl<const N: usize> Layout<N> {
@@ -52,7 +50,6 @@ impl<const N: usize> Layout<N> {
                 layout.inverse_mass[i][k] = rates.as_ref()[layout.positions[i]];
             }
         }
-        layout.mass = inverse(&layout.inverse_mass, layout.count).ok_or(Failure::NotSeparable)?;
         if layout.is_separable(f, (t, y)) { Ok(layout) } else { Err(Failure::NotSeparable) }
     }
 
@@ -69,7 +66,6 @@ impl<const N: usize> Layout<N> {
             positions: [0; MOST],
             count: 0,
             inverse_mass: [[0.0; MOST]; MOST],
-            mass: [[0.0; MOST]; MOST],
         };
         let (mut start, mut momenta, mut positions) = (0, 0, 0);
         for group in groups {
@@ -137,35 +133,6 @@ impl<const N: usize> Layout<N> {
         state
     }
 
-    /// The components of a state that are the momentum of the placement.
-    pub(super) fn momentum_of<S: StateVector<f64>>(&self, state: &S) -> Matrix<N> {
-        matrix(&state.as_ref()[self.pi.clone()])
-    }
-
-    /// The state with these components replaced.
-    pub(super) fn with_momentum<S: StateVector<f64>>(&self, state: &S, pi: &Matrix<N>) -> S {
-        let mut replaced = *state;
-        replaced.as_mut()[self.pi.clone()].copy_from_slice(&self.momentum::<S>(pi).as_ref()[self.pi.clone()]);
-        replaced
-    }
-
-    /// `Pi` of a velocity of the placement of a body whose centre of mass is at rest.
-    pub(super) fn legendre(&self, velocity: &Matrix<N>) -> Matrix<N> {
-        let mut pi = Matrix::<N>::zeros();
-        for (k, momentum) in self.momenta[..self.count].iter().enumerate() {
-            let Some(row) = momentum.checked_sub(self.pi.start).filter(|_| self.pi.contains(momentum)) else {
-                continue;
-            };
-            for (i, position) in self.positions[..self.count].iter().enumerate() {
-                if self.phi.contains(position) {
-                    let column = position - self.phi.start;
-                    pi[(row / N, row % N)] += self.mass[k][i] * velocity[(column / N, column % N)];
-                }
-            }
-        }
-        pi
-    }
-
     /// `h` times the rates of the momenta.
     pub(super) fn kick<S: StateVector<f64>>(&self, rates: &S, h: f64) -> S {
         let mut rise = S::zeros();
@@ -187,43 +154,6 @@ impl<const N: usize> Layout<N> {
         }
         rise
     }
-}
-
-/// The inverse of the leading block, by elimination with the largest entry of each column as the pivot; `None` where it is
-/// singular.
-fn inverse(matrix: &[[f64; MOST]; MOST], count: usize) -> Option<[[f64; MOST]; MOST]> {
-    let (mut left, mut right) = (*matrix, [[0.0; MOST]; MOST]);
-    for (k, row) in right.iter_mut().enumerate() {
-        row[k] = 1.0;
-    }
-    for column in 0..count {
-        let mut pivot = column;
-        for row in column + 1..count {
-            if left[row][column].abs() > left[pivot][column].abs() {
-                pivot = row;
-            }
-        }
-        left.swap(pivot, column);
-        right.swap(pivot, column);
-        let scale = 1.0 / left[column][column];
-        if !scale.is_finite() {
-            return None;
-        }
-        for k in 0..count {
-            left[column][k] *= scale;
-            right[column][k] *= scale;
-        }
-        for row in 0..count {
-            let factor = left[row][column];
-            if row != column && factor != 0.0 {
-                for k in 0..count {
-                    left[row][k] -= factor * left[column][k];
-                    right[row][k] -= factor * right[column][k];
-                }
-            }
-        }
-    }
-    Some(right)
 }
 
 /// The placement matrix of a group of components.

@@ -1,10 +1,13 @@
 //! The method of order 8 for several bodies at once, each in a lane with steps of its own.
 
+mod before;
 mod dense;
 
+use before::Before;
 use pulp::{Simd, WithSimd};
 
 use super::dormand_prince_853::*;
+use super::field::STAGES;
 use super::pair::{DormandPrince853, E3};
 use super::start::Start;
 use super::step::Pair;
@@ -17,7 +20,6 @@ use crate::step_size::in_lanes::{Clocks, fate};
 use affine_core::__private::numerics::IN_RANGE;
 use affine_core::model::StateVector;
 
-const STAGES: usize = 13;
 /// Place of the slope at the end of a step, which is the first of the next.
 const AT_END: usize = 12;
 
@@ -31,8 +33,8 @@ pub struct RungeKutta8InLanes<T, S, F> {
     y: S,
     trial: S,
     stages: [S; STAGES],
-    /// Times, states and slopes where the last attempts began.
-    before: Option<(T, S, S)>,
+    /// Where the last attempts began, if that is kept.
+    before: Option<Before<T, S>>,
 }
 
 /// What happens to the body in a lane.
@@ -88,8 +90,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     /// Tries one step in every lane; what becomes of a body, where its way ends.
     pub fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
-        if self.before.is_some() {
-            self.keep();
+        if let Some(before) = &mut self.before {
+            before.begin(self.clocks.t, &self.y, &self.stages[0]);
         }
         let is_a_last_resort = self.f.are_a_last_resort();
         let fates = in_lanes::<T, _>(Trial(self), is_a_last_resort);
@@ -108,17 +110,17 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     #[inline(always)]
     fn step<V: Simd>(&mut self, simd: V) -> T {
         let h = self.clocks.end - self.clocks.t;
-        self.stage::<V, 2, 1>(simd, h, &A2);
-        self.stage::<V, 3, 2>(simd, h, &A3);
-        self.stage::<V, 4, 2>(simd, h, &A4);
-        self.stage::<V, 5, 3>(simd, h, &A5);
-        self.stage::<V, 6, 3>(simd, h, &A6);
-        self.stage::<V, 7, 4>(simd, h, &A7);
-        self.stage::<V, 8, 5>(simd, h, &A8);
-        self.stage::<V, 9, 6>(simd, h, &A9);
-        self.stage::<V, 10, 7>(simd, h, &A10);
-        self.stage::<V, 11, 8>(simd, h, &A11);
-        self.stage::<V, 12, 9>(simd, h, &A12);
+        self.stage(simd, h, NODES[0], &A2);
+        self.stage(simd, h, NODES[1], &A3);
+        self.stage(simd, h, NODES[2], &A4);
+        self.stage(simd, h, NODES[3], &A5);
+        self.stage(simd, h, NODES[4], &A6);
+        self.stage(simd, h, NODES[5], &A7);
+        self.stage(simd, h, NODES[6], &A8);
+        self.stage(simd, h, NODES[7], &A9);
+        self.stage(simd, h, NODES[8], &A10);
+        self.stage(simd, h, NODES[9], &A11);
+        self.stage(simd, h, NODES[10], &A12);
         self.moved(simd, h, &B);
         self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
         let (error, doubt) = self.error(simd, h.abs());
@@ -126,19 +128,19 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     }
 
     #[inline(always)]
-    fn stage<V: Simd, const NUMBER: usize, const TERMS: usize>(
+    fn stage<V: Simd, const TERMS: usize>(
         &mut self,
         simd: V,
         h: T,
+        (number, node): (usize, f64),
         row: &[(usize, f64); TERMS],
     ) {
-        let (_, node) = NODES[NUMBER - 2];
         let mut time = self.clocks.end;
         if node != 1.0 {
             time = self.clocks.t + T::constant(node, 0.0) * h;
         }
         self.at_stage(simd, h, row);
-        self.f.slope(time, &self.trial, &mut self.stages[NUMBER - 1]);
+        self.f.slope(time, &self.trial, &mut self.stages[number - 1]);
     }
 
     /// The trial states at the stage of a row: the last one enters last.
@@ -393,7 +395,7 @@ mod tests {
     fn vectors_of_any_width_round_the_same() -> Result<(), Failure> {
         let (rounded_as_numbers, fused) =
             (on_all_vectors::<F64x8>()?, on_all_vectors::<<F64x8 as Lanes>::Fused>()?);
-        assert_eq!(rounded_as_numbers == fused, IS_FUSED, "the two classes differ");
+        assert_eq!(rounded_as_numbers == fused, IS_FUSED, "lanes round as numbers do, unless asked");
         Ok(())
     }
 

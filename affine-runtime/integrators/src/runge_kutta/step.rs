@@ -101,13 +101,13 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     /// Accepts the step: evaluates the slope at its end. One evaluation.
     #[inline]
     pub fn accept(&mut self, f: &impl Fn(f64, &S) -> S) {
-        self.accept_with(f(self.t_trial, &self.y_trial));
+        self.set_end(f(self.t_trial, &self.y_trial));
+        self.keep();
     }
 
-    /// Accepts the step, at whose end `f` is `slope`.
+    /// Accepts the step, at whose end the slope is known.
     #[inline]
-    pub(super) fn accept_with(&mut self, slope: S) {
-        self.set_end(slope);
+    pub(super) fn keep(&mut self) {
         self.accepted = true;
     }
 
@@ -120,14 +120,6 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     /// The slope at the end of the step.
     pub(super) fn end_slope(&self) -> &S {
         &self.stages[12]
-    }
-
-    /// Takes over an accepted step that was computed elsewhere: its end, and the slopes after the first.
-    #[cfg(feature = "std")]
-    pub(super) fn taken(&mut self, end: (f64, S), slopes: impl Iterator<Item = S>) {
-        (self.t_trial, self.y_trial) = end;
-        self.stages[1..].iter_mut().zip(slopes).for_each(|(stage, slope)| *stage = slope);
-        self.accepted = true;
     }
 
     /// Turns to the next step, which begins where this one ended.
@@ -196,15 +188,6 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     #[must_use]
     pub fn end(&self) -> &S {
         if self.accepted { &self.y_trial } else { &self.y }
-    }
-
-    /// Gives up the attempted step.
-    pub(super) fn withdraw(&mut self) {
-        self.accepted = false;
-    }
-
-    pub(super) fn time(&self) -> f64 {
-        self.t
     }
 
     pub(super) fn trial_end(&self) -> &S {

@@ -1,15 +1,15 @@
 //! Splitting with steps as long as a tolerance allows.
 
-use core::fmt;
-
 use super::{Pieces, Sweeps, composed, of_order};
+use crate::drive::{Adaptive, AdaptiveMethod, Attempt, Control};
 use crate::error_norm::ErrorNorm;
 use crate::finite::is_finite;
 use crate::lie::Sum;
-use crate::step_size::{Controller, next_time, shortest};
+use crate::step_size::Controller;
 use crate::tape::Tape;
-use crate::{Failure, Statistics, sound};
-use affine_core::__private::numerics::norm;
+use crate::vectors::Baseline;
+use crate::{Failure, sound};
+use affine_core::__private::numerics::{Vectors, norm};
 use affine_core::model::{Group, StateVector};
 
 /// The order of steps where none is given: on problem P7 with stiffnesses from 1e4 to 1e8 the least work of orders 2, 4 and 6
@@ -41,27 +41,26 @@ const FIRST: f64 = 1e3;
 /// on twice that difference is: a tolerance next to rounding is met as far as rounding allows, and changes nothing from
 /// 2e-14 on.
 ///
-/// Cost: three steps of the composition for a step, of which [`Statistics`] count the flows of the last piece; at the start
+/// Cost: three steps of the composition for a step, of which [`Statistics`](crate::Statistics) count the flows of the last piece; at the start
 /// one evaluation for each component of a momentum, and a few more.
+pub type AdaptiveSplitting<S, C, P> = Adaptive<HalvedSteps<S, C, P>>;
+
+/// Steps of a composition with two halves of each.
 #[derive(Clone)]
-pub struct AdaptiveSplitting<S, C, P> {
+pub struct HalvedSteps<S, C, P> {
     pieces: P,
     constants: C,
     sweeps: Sweeps,
     error_norm: ErrorNorm,
-    tolerance: f64,
     /// The difference that steps may have by rounding alone, as far as it has been seen.
     rounding: f64,
-    controller: Controller,
+    /// Length and difference of the last attempt of the step.
+    longer: (f64, f64),
     begin: (f64, Sum<S>),
     end: (f64, Sum<S>),
-    length: f64,
-    t_end: f64,
-    failure: Option<Failure>,
-    statistics: Statistics,
 }
 
-impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> Adaptive<HalvedSteps<S, C, P>> {
     /// The integration at its start, of order 2, 4, 6 or 8, [`ORDER`] where none is given; `None` for other orders.
     /// `f` are the equations of the whole motion, which are looked at here alone; `groups` lay out the state vector for the
     /// [`ErrorNorm`].
@@ -90,87 +89,108 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         let span = (t_end - t0).abs();
         let first = FIRST / fastest(f, (t0, &y0));
         let start = (t0, Sum::of(y0));
-        Some(Ok(Self {
+        let length = if first < span { first } else { span };
+        let controller = Controller::of(sweeps.order() as f64 + 1.0, 1.0);
+        let method = HalvedSteps {
             pieces,
             constants,
             sweeps,
             error_norm,
-            tolerance,
             rounding: 0.0,
-            controller: Controller::of(sweeps.order() as f64 + 1.0, 1.0),
+            longer: (f64::INFINITY, 0.0),
             begin: start,
             end: start,
-            length: if first < span { first } else { span },
-            t_end,
-            failure: None,
-            statistics: Statistics { evaluations: 1 + probes + EVALUATIONS, ..Statistics::default() },
-        }))
-    }
-
-    /// Takes one accepted step; does nothing at `t_end`, which the last step hits exactly.
-    ///
-    /// # Errors
-    /// [`Failure`], now and ever after; the state stays that of the last accepted step.
-    pub fn advance(&mut self) -> Result<(), Failure> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        if self.is_finished() {
-            return Ok(());
-        }
-        self.accepted().inspect_err(|failure| self.failure = Some(*failure))
-    }
-
-    fn accepted(&mut self) -> Result<(), Failure> {
-        let (t, _) = self.end;
-        let mut longer = (f64::INFINITY, 0.0);
-        loop {
-            let until = next_time(t, self.length, self.t_end);
-            if until == t {
-                return Err(Failure::StepUnderflow);
-            }
-            let (reached, difference) = self.attempt(until);
-            let tried = (until - t).abs();
-            if is_of_rounding((tried, difference), longer) {
-                self.rounding = 2.0 * difference;
-            }
-            longer = (tried, difference);
-            let error = self.error(difference);
-            if error <= 1.0 {
-                (self.begin, self.end) = (self.end, (until, reached));
-                self.statistics.steps += 1;
-                self.length = tried * self.controller.accept(error);
-                return Ok(());
-            }
-            self.statistics.rejected += 1;
-            self.length = tried * self.controller.reject(error);
-            if self.length <= shortest(t, self.t_end) {
-                return Err(if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite });
-            }
-        }
+        };
+        let evaluations = 1 + probes + EVALUATIONS;
+        Some(Ok(Self { method, control: Control::new((t_end, tolerance), controller, length, evaluations) }))
     }
 
     /// A first step of a length is within the tolerance; it is counted, and not taken.
     #[doc(hidden)]
     pub fn allows(&mut self, length: f64) -> bool {
-        let (t, _) = self.end;
-        let (_, difference) = self.attempt(t + length.copysign(self.t_end - t));
-        self.error(difference) <= 1.0
+        let (method, control) = (&mut self.method, &mut self.control);
+        let (t, _) = method.end;
+        let (_, difference) = method.halved(t + length.copysign(control.t_end - t), control);
+        method.error(difference, control.tolerance) <= 1.0
     }
 
+    /// Order of the composition.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.method.sweeps.order()
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveMethod for HalvedSteps<S, C, P> {
+    type State = S;
+    const NAME: &'static str = "AdaptiveSplitting";
+
+    fn t(&self) -> f64 {
+        self.end.0
+    }
+
+    fn y(&self) -> &S {
+        &self.end.1.value
+    }
+
+    fn step(&mut self, control: &mut Control) -> Result<(), Failure> {
+        control.by_error(self, Baseline)
+    }
+
+    /// By two shorter halves from the beginning of the last step, which leave the steps as they are.
+    fn at(&mut self, t: f64, control: &mut Control) -> Result<S, Failure> {
+        let (from, begin) = self.begin;
+        if t == self.t() || from == self.t() {
+            return Ok(*self.y());
+        }
+        let between = self.in_halves(from, begin, t - from, control).value;
+        if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
+    }
+
+    fn exchange(&mut self, tape: &mut impl Tape) {
+        tape.number(&mut self.end.0);
+        tape.sum(&mut self.end.1);
+        tape.number(&mut self.rounding);
+        self.begin = self.end;
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> Attempt for HalvedSteps<S, C, P> {
+    type Trial = Sum<S>;
+
+    fn begin(&mut self, _control: &mut Control) {
+        self.longer = (f64::INFINITY, 0.0);
+    }
+
+    fn attempt(&mut self, _vectors: impl Vectors, end: f64, control: &mut Control) -> Option<(Sum<S>, f64)> {
+        let (reached, difference) = self.halved(end, control);
+        let tried = ((end - self.end.0).abs(), difference);
+        if is_of_rounding(tried, self.longer) {
+            self.rounding = 2.0 * difference;
+        }
+        self.longer = tried;
+        Some((reached, self.error(difference, control.tolerance)))
+    }
+
+    fn accept(&mut self, reached: Sum<S>, end: f64, _control: &mut Control) {
+        (self.begin, self.end) = (self.end, (end, reached));
+    }
+}
+
+impl<S: StateVector<f64>, C, P: Pieces<S, C>> HalvedSteps<S, C, P> {
     /// The error of a step relative to what it may be.
-    fn error(&self, difference: f64) -> f64 {
-        let allowed = GAIN_BY_HALVING * self.tolerance;
+    fn error(&self, difference: f64, tolerance: f64) -> f64 {
+        let allowed = GAIN_BY_HALVING * tolerance;
         difference / if self.rounding > allowed { self.rounding } else { allowed }
     }
 
     /// The state after two halves of a step to a time, and its difference to that after the whole step; NaN where something
     /// is not finite.
-    fn attempt(&mut self, until: f64) -> (Sum<S>, f64) {
+    fn halved(&mut self, until: f64, control: &mut Control) -> (Sum<S>, f64) {
         let (t, start) = self.end;
         let h = until - t;
-        let whole = self.composed(t, start, h).value;
-        let reached = self.in_halves(t, start, h);
+        let whole = self.composed(t, start, h, control).value;
+        let reached = self.in_halves(t, start, h, control);
         let (before, after) = (start.value.as_ref(), reached.value.as_ref());
         let mut difference = whole;
         for (difference, value) in difference.as_mut().iter_mut().zip(after) {
@@ -181,89 +201,15 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> AdaptiveSplitting<S, C, P> {
         (reached, if is_finite(&reached.value) { relative } else { f64::NAN })
     }
 
-    fn in_halves(&mut self, t: f64, start: Sum<S>, h: f64) -> Sum<S> {
-        let half = self.composed(t, start, 0.5 * h);
-        self.composed(t + 0.5 * h, half, 0.5 * h)
+    fn in_halves(&self, t: f64, start: Sum<S>, h: f64, control: &mut Control) -> Sum<S> {
+        let half = self.composed(t, start, 0.5 * h, control);
+        self.composed(t + 0.5 * h, half, 0.5 * h, control)
     }
 
-    fn composed(&mut self, t: f64, begin: Sum<S>, h: f64) -> Sum<S> {
+    fn composed(&self, t: f64, begin: Sum<S>, h: f64, control: &mut Control) -> Sum<S> {
         let (end, evaluations) = composed(&self.pieces, &self.sweeps, &self.constants, (t, begin), h);
-        self.statistics.evaluations += evaluations;
+        control.statistics.evaluations += evaluations;
         end
-    }
-
-    /// The state at a time within the last step, by two shorter halves from its beginning, which leave the steps as they are.
-    ///
-    /// # Errors
-    /// [`Failure::NotFinite`], but the integration can go on.
-    pub fn at(&mut self, t: f64) -> Result<S, Failure> {
-        let (from, begin) = self.begin;
-        if t == self.t() || from == self.t() {
-            return Ok(*self.y());
-        }
-        let between = self.in_halves(from, begin, t - from).value;
-        if is_finite(&between) { Ok(between) } else { Err(Failure::NotFinite) }
-    }
-
-    /// Goes on to another end of the interval.
-    #[doc(hidden)]
-    pub fn aim(&mut self, t_end: f64) {
-        self.t_end = t_end;
-    }
-
-    /// Everything that the next steps depend on.
-    #[doc(hidden)]
-    pub fn exchange(&mut self, tape: &mut impl Tape) {
-        tape.number(&mut self.end.0);
-        tape.sum(&mut self.end.1);
-        tape.number(&mut self.length);
-        tape.number(&mut self.rounding);
-        self.controller.exchange(tape);
-        tape.statistics(&mut self.statistics);
-        self.begin = self.end;
-    }
-
-    /// Order of the composition.
-    #[must_use]
-    pub fn order(&self) -> usize {
-        self.sweeps.order()
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.end.0
-    }
-
-    /// State reached.
-    #[must_use]
-    pub fn y(&self) -> &S {
-        &self.end.1.value
-    }
-
-    /// `t_end` is reached.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.t() == self.t_end
-    }
-
-    /// Cost so far, with that of [`at`](Self::at).
-    #[must_use]
-    pub fn statistics(&self) -> Statistics {
-        self.statistics
-    }
-}
-
-impl<S: StateVector<f64>, C, P: Pieces<S, C>> fmt::Debug for AdaptiveSplitting<S, C, P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("AdaptiveSplitting")
-            .field("order", &self.order())
-            .field("t", &self.t())
-            .field("y", self.y())
-            .field("t_end", &self.t_end)
-            .field("tolerance", &self.tolerance)
-            .field("statistics", &self.statistics())
-            .finish_non_exhaustive()
     }
 }
 

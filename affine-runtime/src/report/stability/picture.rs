@@ -1,6 +1,5 @@
 //! A stability report as a picture: errors beside what was demanded of them, on one logarithmic axis.
 
-use std::io;
 use std::path::Path;
 
 use super::{Demand, Finding, StabilityCase, StabilityReport, Verdict};
@@ -31,10 +30,8 @@ struct Line<'a> {
 impl StabilityReport {
     /// The picture as an SVG document: a line for each quantity of each model, with a disc at the error of each of its cases,
     /// a stroke at what was demanded of it, and a square with the number of its refusals.
-    ///
-    /// # Errors
-    /// Those of the drawing library.
-    pub fn to_svg(&self) -> io::Result<String> {
+    #[must_use]
+    pub fn to_svg(&self) -> String {
         let lines = self.lines();
         let headings = lines.windows(2).filter(|pair| pair[0].heading != pair[1].heading).count() + 1;
         let bottom = TOP + LINE * (lines.len() as f64 + headings as f64) + GAP * headings as f64;
@@ -84,12 +81,12 @@ impl StabilityReport {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
-        save(path.as_ref(), self.to_svg())
+        save(path.as_ref(), &self.to_svg())
     }
 }
 
 impl Line<'_> {
-    fn draw(&self, canvas: &mut Canvas<'_>, y: f64) {
+    fn draw(&self, canvas: &mut Canvas, y: f64) {
         let [first, .., last] = self.cases.as_slice() else {
             return self.cases.iter().for_each(|only| {
                 label(canvas, &format!("{}: {}", about(only), only.scene), y);
@@ -101,7 +98,7 @@ impl Line<'_> {
         self.marks(canvas, y);
     }
 
-    fn marks(&self, canvas: &mut Canvas<'_>, y: f64) {
+    fn marks(&self, canvas: &mut Canvas, y: f64) {
         for case in &self.cases {
             if let Demand::Held(most) | Demand::HeldOrRefused(most) = case.demand {
                 let x = place(most);
@@ -129,7 +126,7 @@ fn about(case: &StabilityCase) -> String {
 }
 
 /// The text of a line, cut where the axis begins.
-fn label(canvas: &mut Canvas<'_>, text: &str, y: f64) {
+fn label(canvas: &mut Canvas, text: &str, y: f64) {
     let most = ((LEFT - 45.0) / (0.52 * TEXT)) as usize;
     let text = match text.char_indices().nth(most) {
         Some((end, _)) => format!("{} ...", text[..end].trim_end()),
@@ -138,11 +135,11 @@ fn label(canvas: &mut Canvas<'_>, text: &str, y: f64) {
     canvas.text(&text, (30.0, y), Lettering::new(TEXT, INK));
 }
 
-fn square(canvas: &mut Canvas<'_>, (x, y): (f64, f64), colour: Colour) {
+fn square(canvas: &mut Canvas, (x, y): (f64, f64), colour: Colour) {
     canvas.rectangle((x - 3.5, y - 3.5), (x + 3.5, y + 3.5), colour);
 }
 
-fn legend(canvas: &mut Canvas<'_>, y: f64) {
+fn legend(canvas: &mut Canvas, y: f64) {
     let text = Lettering::new(11.0, INK);
     canvas.disc((24.0, y), 3.0, colour(Verdict::Held));
     canvas.text("error", (32.0, y), text);

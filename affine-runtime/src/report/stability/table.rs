@@ -43,7 +43,7 @@ impl StabilityReport {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with path and kind of the failure.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        save(path.as_ref(), Ok(self.to_csv()))
+        save(path.as_ref(), &self.to_csv())
     }
 }
 

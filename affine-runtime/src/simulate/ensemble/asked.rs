@@ -9,7 +9,7 @@ use crate::simulate::settings::Plan;
 
 /// A member of an ensemble: a body from its start to its end.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Member<P, A> {
     /// Its place among the starts, counted from 0; whatever shard it was in.
     pub number: u64,
@@ -29,7 +29,7 @@ pub(super) struct Start<const N: usize, H: Handle<N>> {
 }
 
 /// What makes the events that a body looks for.
-pub(super) type Events<'a, const N: usize, P> = dyn Fn() -> Vec<Event<'a, N, P>> + Sync + 'a;
+pub(super) type Events<'a, const N: usize, P> = dyn Fn() -> Vec<Event<'a, N, P>> + Send + Sync + 'a;
 
 /// The same of every body, checked.
 pub(super) struct Asked<'t, 'a, const N: usize, H: Handle<N>, A> {

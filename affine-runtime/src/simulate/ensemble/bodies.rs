@@ -5,7 +5,7 @@ use core::ops::Range;
 use crate::capability::InLanes;
 use crate::error::Reason;
 use crate::frames::Matrix;
-use crate::inner::{Equations, Fate, IS_FUSED, InVectors, RungeKutta8InLanes, gathered};
+use crate::inner::{Equations, Fate, IS_FUSED, RungeKutta8InLanes, gathered};
 use crate::inner::{Start, starts_in_lanes};
 use crate::lanes::Lanes;
 use crate::model::{Group, Model, StateVector};
@@ -156,20 +156,16 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         self.expanded(lane, self.t(lane), &state)
     }
 
-    /// The phase points at times within the last step in a lane, whose dense output is formed for the first of them.
-    pub(super) fn within(&self, lane: usize) -> impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, Reason> {
-        let mut dense = None;
+    /// The phase points at times within the last step in a lane.
+    pub(super) fn within(
+        &mut self,
+        lane: usize,
+    ) -> impl FnMut(f64) -> Result<WithWork<M::Point<f64>>, Reason> {
         move |t| {
             if t == self.t(lane) {
                 return Ok(self.reached(lane));
             }
-            let (model, constants) = &self.of_lanes[lane];
-            let equations = |t: f64, y: &M::Reduced<f64>| model.reduced_equations(t, constants, y);
-            let dense = dense.get_or_insert_with(|| match M::packing(*model) {
-                Some(packing) => self.integration.dense(lane, &InVectors(packing, *constants)),
-                None => self.integration.dense(lane, &equations),
-            });
-            let state = dense.as_ref().map(|dense| dense.at(t));
+            let state = self.integration.within(lane, t);
             state.map(|state| self.expanded(lane, t, &state)).ok_or(Reason::NotFinite)
         }
     }

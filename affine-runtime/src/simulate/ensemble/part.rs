@@ -5,7 +5,7 @@ use super::bodies::{Bodies, Common, begun, has_fused_lanes};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
-use crate::integrate::is_fused;
+use crate::integrate::{FusedArithmetic, fused_arithmetic};
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
@@ -28,7 +28,10 @@ where
     /// What becomes of bodies, in their order. They go in lanes that are fused as their steps would be alone.
     pub(super) fn of<T: Lanes>(&self, starts: &[Start<N, H>]) -> Vec<Member<PointOf<N, H>, A>> {
         let fuses = starts.first().is_some_and(|start| has_fused_lanes(start.handle.model()));
-        if fuses && is_fused() { self.all_of::<T::Fused>(starts) } else { self.all_of::<T>(starts) }
+        match fused_arithmetic() {
+            FusedArithmetic::InVectors if fuses => self.all_of::<T::Fused>(starts),
+            _ => self.all_of::<T>(starts),
+        }
     }
 
     /// The same in lanes of this kind. Those that cannot go on in lanes go alone from their start.
@@ -87,7 +90,7 @@ where
             }
             for lane in 0..T::LANES {
                 let Some((_, recording)) = &mut recordings[lane] else { continue };
-                let next = self.next(&bodies, lane, fates[lane], recording);
+                let next = self.next(&mut bodies, lane, fates[lane], recording);
                 if next == Next::Step {
                     continue;
                 }
@@ -111,7 +114,7 @@ where
     /// How the body in a lane goes on after an attempt of a step.
     fn next<T: Lanes>(
         &self,
-        bodies: &Bodies<'_, N, T, H::Model>,
+        bodies: &mut Bodies<'_, N, T, H::Model>,
         lane: usize,
         fate: Next,
         recording: &mut Recording<'_, '_, N, PointOf<N, H>, A>,
@@ -120,7 +123,8 @@ where
             return fate;
         }
         if self.within_steps && bodies.has_stepped(lane) {
-            let next = recording.step(bodies.t(lane), &mut bodies.within(lane), self.add);
+            let t = bodies.t(lane);
+            let next = recording.step(t, &mut bodies.within(lane), self.add);
             if next != Next::Step {
                 return next;
             }

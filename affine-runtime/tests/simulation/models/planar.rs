@@ -117,6 +117,10 @@ impl<const DRIVEN: bool, const IN_PI: bool> Model<2> for Planar<DRIVEN, IN_PI> {
         let Motion::Straight { velocity } = geodesic.motion else { unreachable!("made above") };
         point_of(start.phi() + velocity * (t - geodesic.t0), TwoPoint(start.pi().0.0), Pinned)
     }
+
+    fn collapse(&self, geodesic: &Geodesic<2>, t_end: f64, start: &Matrix<2>) -> Option<f64> {
+        geodesic.collapse(t_end, start)
+    }
 }
 
 /// A stretched placement whose first row moves by `rate` per unit of time.

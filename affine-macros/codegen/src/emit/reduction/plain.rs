@@ -50,10 +50,9 @@ pub(super) fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
 pub(super) fn equations(context: &Context) -> TokenStream {
     let (rt, t, inline) = (&context.names.rt, &context.names.scalar, context.inline());
     let (name, parameter) = equations_head(context);
-    let equations = match (parameter.is_some(), context.has_multiplier()) {
-        (true, _) => quote!(#rt::Parametric::hamilton_equations_with(self, coefficients, t, reduced)),
-        (false, true) => quote!(#rt::Model::free_equations(self, t, reduced)),
-        (false, false) => quote!(#rt::Model::hamilton_equations(self, t, reduced)),
+    let equations = match parameter {
+        Some(_) => quote!(#rt::Parametric::hamilton_equations_with(self, coefficients, t, reduced)),
+        None => quote!(#rt::Model::hamilton_equations(self, t, reduced)),
     };
     quote! {
         #inline

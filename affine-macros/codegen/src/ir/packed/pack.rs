@@ -141,11 +141,13 @@ impl Packer<'_> {
     }
 
     fn as_fused(&self, lane: Lane) -> Option<[Lane; 3]> {
-        match lane {
-            Lane::Of(v) if let Op::MulAdd(a, b, c) = self.program.steps[v] => Some([a, b, c].map(Lane::Of)),
-            // A product with nothing added.
-            lane => self.as_product(lane).map(|[a, b]| [a, b, Lane::MinusZero]),
+        if let Lane::Of(v) = lane
+            && let Op::MulAdd(a, b, c) = self.program.steps[v]
+        {
+            return Some([a, b, c].map(Lane::Of));
         }
+        // A product with nothing added.
+        self.as_product(lane).map(|[a, b]| [a, b, Lane::MinusZero])
     }
 
     fn as_product(&self, lane: Lane) -> Option<[Lane; 2]> {
@@ -157,8 +159,8 @@ impl Packer<'_> {
     }
 
     fn as_difference(&self, lane: Lane) -> Option<[Lane; 2]> {
-        match lane {
-            Lane::Of(v) if let Op::Sub(a, b) = self.program.steps[v] => Some([Lane::Of(a), Lane::Of(b)]),
+        match (lane, &self.program.steps[lane.value()?]) {
+            (Lane::Of(_), Op::Sub(a, b)) => Some([Lane::Of(*a), Lane::Of(*b)]),
             _ => None,
         }
     }
@@ -212,18 +214,28 @@ impl Packer<'_> {
 
     /// A vector that has these lanes.
     fn known(&self, lanes: Lanes) -> Option<Index> {
-        let has = |vector: &Vector| {
-            vector.lanes.iter().zip(lanes).all(|(own, lane)| lane == Lane::Free || *own == lane)
-        };
-        self.vectors.iter().position(has)
+        // Loops and no iterators: most of the time of an unoptimised build would go here.
+        let mut index = 0;
+        while index < self.vectors.len() {
+            let own = &self.vectors[index].lanes;
+            let mut place = 0;
+            while place < 4 && (lanes[place] == Lane::Free || own[place] == lanes[place]) {
+                place += 1;
+            }
+            if place == 4 {
+                return Some(index);
+            }
+            index += 1;
+        }
+        None
     }
 
     /// `-a` as the other sign of `a`.
     fn without_sign(&self, lane: Lane) -> Lane {
-        match lane {
-            Lane::Of(v) if let Op::Neg(a) = self.program.steps[v] => self.without_sign(Lane::Minus(a)),
-            Lane::Minus(v) if let Op::Neg(a) = self.program.steps[v] => self.without_sign(Lane::Of(a)),
-            lane => lane,
+        match (lane, lane.value().map(|v| &self.program.steps[v])) {
+            (Lane::Of(_), Some(Op::Neg(a))) => self.without_sign(Lane::Minus(*a)),
+            (Lane::Minus(_), Some(Op::Neg(a))) => self.without_sign(Lane::Of(*a)),
+            _ => lane,
         }
     }
 
@@ -240,15 +252,22 @@ impl Packer<'_> {
     fn cost(&self) -> usize {
         // What is found in a lane needs no step.
         let mut found = vec![false; self.program.steps.len()];
-        for vector in self.vectors.iter().filter(|vector| vector.made.makes()) {
-            vector.lanes.iter().for_each(|lane| {
-                if let Lane::Of(value) = lane {
-                    found[*value] = true;
+        let mut open: Vec<Value> = Vec::new();
+        let mut cost = 0;
+        for vector in &self.vectors {
+            cost += cost::of_vector(self.program, vector.made);
+            match vector.made {
+                Four::All(value) => open.push(value),
+                Four::Gathered(lanes) => open.extend(lanes.into_iter().filter_map(Lane::value)),
+                _ => {
+                    for lane in vector.lanes {
+                        if let Lane::Of(value) = lane {
+                            found[value] = true;
+                        }
+                    }
                 }
-            });
+            }
         }
-        let mut open: Vec<Value> = self.vectors.iter().flat_map(|vector| vector.made.values()).collect();
-        let mut cost = self.vectors.iter().map(|vector| cost::of_vector(self.program, vector.made)).sum();
         while let Some(value) = open.pop() {
             if !found[value] {
                 found[value] = true;

@@ -56,7 +56,7 @@ pub fn equations(
             Some(known) => {
                 let (mut value, shape) = with_force(known, force);
                 if matches!(group.coordinates[0], Coordinate::M(..)) && h.constraint.is_some() {
-                    (value, projects) = under_constraint(h, value, shape);
+                    (value, projects) = under_constraint(value, shape);
                 }
                 list.push(value.of(group.left.0, group.left.1));
             }
@@ -71,8 +71,8 @@ pub fn equations(
     }
     list.extend(notation.definitions(arena, written.iter()));
     list.extend(forces.formulas(arena, notation));
-    let constraint = h.constraint.and_then(|group| constraint(h, group, projects));
-    list.extend(constraint.map(|(text, latex)| Formula { text: text.to_owned(), latex: latex.to_owned() }));
+    let projection = h.constraint.filter(|_| projects).map(Constraint::projection);
+    list.extend(projection.map(|(text, latex)| Formula { text: text.to_owned(), latex: latex.to_owned() }));
     list
 }
 
@@ -143,17 +143,9 @@ fn with_force((kinetic, shape): (Formula, Shape), force: Option<&ForceName>) -> 
     (Formula { text: with(kinetic.text, name), latex: with(kinetic.latex, name_latex) }, Shape::Other)
 }
 
-/// What a constraint makes of the rate of the affine momentum: a projection, or a multiplier; and whether it projects.
-fn under_constraint(h: &Hamiltonian, rate: Formula, shape: Shape) -> (Formula, bool) {
+/// What a constraint makes of the rate of the affine momentum, and whether that is a projection.
+fn under_constraint(rate: Formula, shape: Shape) -> (Formula, bool) {
     let Formula { text, latex } = rate;
-    if h.confined().is_none() {
-        let (text, latex) = match shape {
-            Shape::Zero => (String::new(), String::new()),
-            Shape::Commutator | Shape::Other => (format!("{text} + "), format!("{latex} + ")),
-        };
-        let text = format!("{text}Lambda phi^-1");
-        return (Formula { text, latex: format!("{latex}\\Lambda\\,\\varphi^{{-1}}") }, false);
-    }
     match shape {
         // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
         Shape::Zero | Shape::Commutator => (Formula { text, latex }, false),
@@ -161,17 +153,6 @@ fn under_constraint(h: &Hamiltonian, rate: Formula, shape: Shape) -> (Formula, b
             let latex = format!("P\\left({latex}\\right)");
             (Formula { text: format!("P({text})"), latex }, true)
         }
-    }
-}
-
-/// The constraint, or its projection where one is written.
-fn constraint(h: &Hamiltonian, group: Constraint, projects: bool) -> Option<(&'static str, &'static str)> {
-    match h.confined() {
-        None => Some((
-            "det phi = 1, with the multiplier Lambda",
-            "\\det\\varphi = 1\\text{, with the multiplier }\\Lambda",
-        )),
-        Some(_) => projects.then(|| group.projection()),
     }
 }
 

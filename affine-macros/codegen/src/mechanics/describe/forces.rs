@@ -2,7 +2,7 @@
 
 use crate::algebra::{Arena, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
-use crate::mechanics::custom::{Custom, On, Role};
+use crate::mechanics::custom::{By, Custom, On, Role};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::notation::{Formula, Notation, field_index};
 use crate::mechanics::term::Frame;
@@ -86,7 +86,23 @@ impl Forces {
         list
     }
 
-    /// The potentials that fields compute, as summands of `H`.
+    /// What of the potentials that are summands of `H` has a formula.
+    pub(in crate::mechanics) fn definitions(&self, arena: &mut Arena, notation: &Notation) -> Vec<Formula> {
+        let mut list = Vec::new();
+        for custom in &self.customs {
+            if let By::SelfGravity(strength) = custom.by {
+                let unit = By::SelfGravity(strength).unit(arena);
+                let integral = ("R_F(Q_1^2, Q_2^2, Q_3^2)", "R_F(Q_1^2, Q_2^2, Q_3^2)");
+                let mut sum = Sum::default();
+                sum.add(arena, notation, &unit, integral);
+                let (text, latex) = symbols(custom);
+                list.push(sum.of(&text, &latex));
+            }
+        }
+        list
+    }
+
+    /// The potentials that no formula in base functions gives, as summands of `H`.
     #[must_use]
     pub fn potentials(&self) -> Vec<Formula> {
         let is_potential = |custom: &&Custom| matches!(custom.role, Role::Potential { .. });
@@ -98,8 +114,11 @@ impl Forces {
     }
 }
 
-/// Names of what a field computes, in text and LaTeX.
+/// Names of what is computed, in text and LaTeX.
 fn symbols(custom: &Custom) -> (String, String) {
+    if let By::SelfGravity(_) = custom.by {
+        return ("U_g".to_owned(), "U_{\\mathrm{g}}".to_owned());
+    }
     let (stem, latex) = match custom.role {
         Role::Potential { .. } => ("U", "U"),
         Role::Force { on: On::Space, .. } => ("Q", "Q"),

@@ -1,8 +1,9 @@
 //! `H`, and `T` on momenta, through the Casimirs where they are isotropic, through an inertia where that is all.
 
-use super::inertia::{Inertial, inertial};
-use super::{Formula, Notation, Sum};
+use super::inertia::{Inertial, inertial, scalar_inverse};
+use super::{Formula, Notation, Sum, momentum_names};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::mechanics::charts::Momentum;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic};
@@ -40,7 +41,8 @@ pub fn hamiltonian(
     for Formula { text, latex } in forces.potentials() {
         sum.push(false, &text, &latex);
     }
-    sum.of("H", "H").with(notation.definitions(arena, std::iter::once(&used)))
+    let definitions = notation.definitions(arena, std::iter::once(&used));
+    sum.of("H", "H").with(definitions).with(forces.definitions(arena, notation))
 }
 
 /// Adds the energy of the internal motion; what it names that formulas may have to define.
@@ -58,7 +60,13 @@ fn internal(
         sum.push(false, &energy.text, &energy.latex);
         return Polynomial::zero();
     }
-    let dependent = h.confined().map_or_else(Vec::new, |group| group.dependent(&h.momentum));
+    if let Some(scalar) = scalar_inverse(h) {
+        let (x, latex, ..) = momentum_names(Momentum::of(h.frame));
+        let body = (format!("tr({x}^T {x})"), format!("\\operatorname{{tr}}({latex}^T {latex})"));
+        sum.add(arena, notation, &scalar.scaled(&Rational::HALF), (&body.0, &body.1));
+        return Polynomial::zero();
+    }
+    let dependent = h.constraint.map_or_else(Vec::new, |group| group.dependent(&h.momentum));
     let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
     let written = h.internal().substitute(&value);
     let Formula { text, latex } = notation.polynomial(arena, &written);
@@ -99,7 +107,7 @@ fn translation(arena: &mut Arena, notation: &Notation, sum: &mut Sum, h: &Hamilt
 
 /// The coefficient of the trace of the affine spin, which is zero where a constraint makes it traceless.
 pub(super) fn trace_coefficient(h: &Hamiltonian, iso: &Isotropic) -> Polynomial {
-    match h.confined().is_some_and(Constraint::is_traceless) {
+    match h.constraint.is_some_and(Constraint::is_traceless) {
         true => Polynomial::zero(),
         false => iso.casimir1_squared.clone(),
     }

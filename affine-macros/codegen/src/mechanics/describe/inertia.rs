@@ -33,7 +33,7 @@ pub(super) fn inertial(
     h: &Hamiltonian,
     kinetic: &Kinetic,
 ) -> Option<Inertial> {
-    if h.numeric_blocks.is_empty() || h.confined().is_some() || h.weight.is_some() {
+    if h.numeric_blocks.is_empty() || h.constraint.is_some() || h.weight.is_some() {
         return None;
     }
     let [(place, _)] = kinetic.internal.as_slice() else { return None };
@@ -46,6 +46,17 @@ pub(super) fn inertial(
         let momentum = Momentum::of(h.frame);
         if tensor { on_pairs(&name.inverse(), momentum) } else { on_rows(&name.inverse(), momentum) }
     })
+}
+
+/// `c` of an energy `c/2 tr(X^T X)` over momenta that nothing confines.
+pub(super) fn scalar_inverse(h: &Hamiltonian) -> Option<Polynomial> {
+    if h.constraint.is_some() || h.weight.is_some() {
+        return None;
+    }
+    let inverse = inverse_on_rows(h)?;
+    let scalar = inverse[0][0].clone();
+    let fits = |k: usize, l: usize| if k == l { inverse[k][l] == scalar } else { inverse[k][l].is_zero() };
+    (0..h.dim).all(|k| (0..h.dim).all(|l| fits(k, l))).then_some(scalar)
 }
 
 /// `dO_k/dX_l` of entries row-major, `l` transposed.

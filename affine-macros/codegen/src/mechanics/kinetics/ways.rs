@@ -3,13 +3,16 @@
 //! On the motion the momentum `M` of the chart is the sum of the momenta `m` of the parts. So one of these is what the others
 //! leave of `M`, and in the rates `M` may be written as the sum, where much of it cancels against the forces. Under a
 //! constraint `M` stands for the class of all momenta that differ by what no velocity of the group sees: then only
-//! the second holds, since rates depend on the class alone, while the force on a part needs the momentum itself.
+//! the second holds, since rates depend on the class alone, while the force on a part needs the momentum itself. On SL(n) the
+//! members of a class differ by multiples of the identity, and one entry of the sum tells which is meant: there the first
+//! holds as well.
 
 use rustc_hash::FxHashSet;
 
 use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Coordinate;
+use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::Form;
 use crate::mechanics::metric::Definitions;
 
@@ -55,7 +58,8 @@ impl Lagrangian {
         if self.is_projected() {
             ways.push(self.momentum_as_sum(&parts));
             ways.push(self.as_it_stands(&parts, true));
-        } else {
+        }
+        if !self.is_projected() || self.chart.confined == Some(Constraint::Isochoric) {
             let moved = (0..parts.len()).filter(|k| parts[*k].named().count() == self.conjugate.len());
             for k in moved {
                 ways.push(self.left_by_others(&parts, k, false));
@@ -95,19 +99,34 @@ impl Lagrangian {
     }
 
     /// The momentum of part `k` as `M - sum of the others`; those in the velocities of the chart `written_out`, which one
-    /// term always is.
+    /// term always is. Under `det phi = 1` a multiple of the identity more, which the first entry tells.
     fn left_by_others(&self, parts: &[Contribution], k: usize, written_out: bool) -> Way {
         let Way { mut shared, force } = self.as_it_stands(parts, false);
         let names: Vec<Expr> = parts[k].named().map(|(name, _)| name).collect();
-        shared.retain(|(known, _)| !names.contains(known));
-        for (place, ((y, _), name)) in self.conjugate.iter().zip(names).enumerate() {
-            let mut rest = Polynomial::atom(self.chart.symbol(*y));
+        let rest = |place: usize| {
+            let mut rest = Polynomial::atom(self.chart.symbol(self.conjugate[place].0));
             for (j, other) in parts.iter().enumerate().filter(|(j, _)| *j != k) {
                 let (name, sum) = &other.momentum[place];
                 let is_short = self.parts[j].definitions.is_none() && (written_out || sum.terms().len() < 2);
                 rest.add_scaled(if is_short { sum } else { name }, &Rational::MINUS_ONE);
             }
-            shared.push((name, rest));
+            rest
+        };
+        let first = self.conjugate.iter().position(|(y, _)| *y == Coordinate::M(0, 0));
+        let first = first.filter(|_| self.is_projected());
+        let told = first.map(|place| names[place]);
+        shared.retain(|(known, _)| !names.contains(known) || told == Some(*known));
+        for (place, ((y, _), name)) in self.conjugate.iter().zip(&names).enumerate() {
+            let mut value = rest(place);
+            match (first, *y) {
+                (Some(first), _) if place == first => continue,
+                (Some(first), Coordinate::M(a, b)) if a == b => {
+                    value.add_scaled(&Polynomial::atom(names[first]), &Rational::ONE);
+                    value.add_scaled(&rest(first), &Rational::MINUS_ONE);
+                }
+                _ => {}
+            }
+            shared.push((*name, value));
         }
         Way { shared, force }
     }

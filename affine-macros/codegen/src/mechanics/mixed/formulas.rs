@@ -81,7 +81,7 @@ pub fn hamiltonian(
         add(&text, &latex);
     }
     forces.potentials().iter().for_each(|u| add(&u.text, &u.latex));
-    sum
+    sum.with(forces.definitions(arena, notation))
 }
 
 /// `H` of the internal motion.

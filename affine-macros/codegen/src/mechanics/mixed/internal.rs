@@ -3,7 +3,7 @@
 //! It is written over `phi_dot` and `Pi`, and where it is confined to a group over `Oh` and `Sigma_hat`: the Lie algebra does
 //! not turn with `phi`.
 
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, product, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -81,6 +81,33 @@ impl Internal {
         self.lagrangian.kinetics(arena, &self.velocity, &self.shared)
     }
 
+    /// The inverse of the mass matrix over `phi_dot` on the group, `d(phi_dot)/dPi`, its columns numbered from `first` on: of a
+    /// momentum `Pi` the Lie algebra sees `Pi phi`.
+    pub fn inverse_on_the_group(&self, arena: &mut Arena, first: usize) -> (Definitions, Square<Polynomial>) {
+        let chart = &self.lagrangian.chart;
+        let (n, basis, phi) = (chart.dim, basis(chart), chart.placement());
+        let mut shared = self.shared.clone();
+        let columns: Square<Polynomial> = (0..n * n)
+            .map(|unit| {
+                // Of Pi = E_Bj the momentum conjugate to Oh_aB is phi_ja.
+                let momentum = |k: usize| {
+                    if k % n == unit % n { phi[unit / n][k / n].clone() } else { Polynomial::zero() }
+                };
+                let momenta: Vec<Polynomial> = basis.iter().map(|e| along(e, momentum)).collect();
+                let column = first + unit;
+                let speeds: Vec<Expr> = (1..=basis.len())
+                    .map(|row| arena.symbol(Quantity::InverseColumn.at([row, column])))
+                    .collect();
+                self.factorisation.solve(arena, Factorised::Column(column), &momenta, &speeds, &mut shared);
+                let velocity = composed(&basis, &speeds, n * n);
+                let velocity = table(n, |a, b| velocity[n * a + b].clone());
+                product(&phi, &velocity).concat()
+            })
+            .collect();
+        // It is symmetric: columns may stand as rows.
+        (shared, columns)
+    }
+
     /// The Legendre transformation, in each form that may be the shortest.
     pub fn legendre(&self, arena: &mut Arena) -> [Legendre; 2] {
         let mixed = &self.mixed;
@@ -113,6 +140,24 @@ impl Internal {
     }
 }
 
+/// The velocities that the mass matrix stands on: all of them, or a basis of the Lie algebra of a group.
+fn basis(chart: &Chart) -> Vec<BasisVector> {
+    match chart.confined {
+        None => entries(chart.dim.pow(2)),
+        // The first basis that there is: its vectors have the fewest entries.
+        Some(group) => group.bases(chart.dim, invariant(chart.dim)).swap_remove(0),
+    }
+}
+
+/// The entries of the velocity with these speeds along a basis.
+fn composed(basis: &[BasisVector], speeds: &[Expr], size: usize) -> Vec<Polynomial> {
+    let mut velocity = vec![Polynomial::zero(); size];
+    for (e, speed) in basis.iter().zip(speeds) {
+        e.entries.iter().for_each(|(place, weight)| velocity[*place].add_term(vec![*speed], weight));
+    }
+    velocity
+}
+
 /// An inverse Legendre transformation.
 struct Solved {
     /// Quantities on the way from placement and momentum to the velocity, all of its entries included.
@@ -127,11 +172,7 @@ impl Solved {
     /// The velocity of a chart; `None` where the mass matrix is singular at every placement.
     fn new(arena: &mut Arena, mixed: &Mixed, chart: &Chart) -> Option<Self> {
         let n = mixed.dim;
-        let basis = match chart.confined {
-            None => entries(n * n),
-            // The first basis that there is: its vectors have the fewest entries.
-            Some(group) => group.bases(n, invariant(n)).swap_remove(0),
-        };
+        let basis = basis(chart);
         let mut placed = Placed::new(arena, n, chart.confined);
         let matrix = mass_matrix(arena, &mut placed, &mixed.internal, frame_of(chart), &basis);
         let mut shared = placed.shared;
@@ -146,14 +187,8 @@ impl Solved {
             Some(_) => (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect(),
         };
         factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
-        for (k, symbol) in velocity.into_iter().enumerate().filter(|(_, symbol)| !speeds.contains(symbol)) {
-            let mut entry = Polynomial::zero();
-            for (e, speed) in basis.iter().zip(&speeds) {
-                let here = e.entries.iter().filter(|(place, _)| *place == k);
-                here.for_each(|(_, weight)| entry.add_term(vec![*speed], weight));
-            }
-            shared.push((symbol, entry));
-        }
+        let entries = velocity.into_iter().zip(composed(&basis, &speeds, n * n));
+        shared.extend(entries.filter(|(symbol, _)| !speeds.contains(symbol)));
         Some(Self { shared, components: momenta.into_iter().zip(speeds).collect(), factorisation })
     }
 }

@@ -8,7 +8,7 @@ use super::matrix_name::{MatrixName, Named};
 use super::{latex, symbols};
 use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr, Polynomial};
-use crate::mechanics::custom::{Custom, On, Role};
+use crate::mechanics::custom::{By, Custom, On, Role};
 use crate::mechanics::metrics::{Metrics, Rebased, Source};
 use crate::symbol::{Quantity, Symbol};
 
@@ -136,6 +136,9 @@ impl Notation<'_> {
     fn computed(&self, quantity: Quantity, indices: &[usize]) -> Option<[Written; 2]> {
         let (place, indices) = indices.split_first()?;
         let custom = self.customs.iter().find(|custom| custom.place == *place)?;
+        if let By::SelfGravity(_) = custom.by {
+            return integral(quantity, indices);
+        }
         let [name, sub] = field::index(&custom.name);
         let index: String = indices.iter().map(usize::to_string).collect();
         let entry = |text: &str, latex: &str| {
@@ -160,5 +163,18 @@ impl Notation<'_> {
             }
             _ => None,
         }
+    }
+}
+
+/// Carlson's integral of the squared stretches, and its derivatives.
+fn integral(quantity: Quantity, indices: &[usize]) -> Option<[Written; 2]> {
+    let index: String = indices.iter().map(usize::to_string).collect();
+    match quantity {
+        Quantity::FieldPotential => Some([Written::letter("R_F"), Written::letter("R_F")]),
+        Quantity::FieldSlope => {
+            let latex = format!("\\frac{{\\partial R_F}}{{\\partial \\varphi_{{{index}}}}}");
+            Some([Written::raised(format!("dR_F/dphi_{index}")), Written::raised(latex)])
+        }
+        _ => None,
     }
 }

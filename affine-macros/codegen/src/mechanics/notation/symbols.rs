@@ -239,6 +239,8 @@ pub const SYMBOLS: &[Letter] = &[
     whole("T_flat", "T_{\\mathrm{flat}}", "the terms in dphi/dt"),
     whole("H", "H", "the Hamiltonian"),
     whole("U", "U", "the potential"),
+    whole("U_g", "U_{\\mathrm{g}}", "the energy of the body in its own gravity"),
+    whole("R_F", "R_F", "Carlson's integral R_F, of the squared stretches"),
     whole("R", "R", "Rayleigh's dissipation function"),
     one(Quantity::Work, "work", "W", "the work of the forces that no potential has"),
     whole("F", "F", "the force on p"),

@@ -99,14 +99,19 @@ impl Draft<'_> {
         tensors: &Tensors<Polynomial>,
     ) -> Square<Polynomial> {
         let n = self.chart.dim;
-        let (first, second) = (of(slopes, Base::Trace), of(slopes, Base::TraceOfSquare));
+        let [first, mut second, third] =
+            [Base::Trace, Base::TraceOfSquare, Base::TraceOfCube].map(|base| of(slopes, base));
+        // a + b G + c G^2 = a + b + c + (b + 2 c) M + c M^2
         let mut along = first;
         along.add_scaled(&second, &Rational::ONE);
+        along.add_scaled(&third, &Rational::ONE);
+        second.add_scaled(&third, &Rational::from(2));
         let swelling = self.means.over_det(&of(slopes, Base::MeanLogStretch));
         let mut joint = along.clone();
         joint.add_scaled(&swelling, &Rational::ONE);
         let splits = !swelling.is_zero() && !along.is_zero();
         let second = self.named(arena, Base::TraceOfSquare.slope(), &second);
+        let third = self.named(arena, Base::TraceOfCube.slope(), &third);
         let mut stress = self.of_entries(arena, slopes);
         let counted = self.means.counted(arena, &along);
         let own = self.named(arena, Quantity::Stress, &counted);
@@ -115,6 +120,7 @@ impl Draft<'_> {
         for (a, row) in stress.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 entry.add_product(&second, &strains.strain(arena, a, b), &Rational::ONE);
+                entry.add_product(&third, &strains.square(arena, a, b), &Rational::ONE);
             }
             if !splits {
                 row[a].add_scaled(&own, &Rational::ONE);
@@ -191,6 +197,19 @@ impl Draft<'_> {
             .filter(|(base, _)| matches!(base, Base::Trace | Base::TraceOfSquare | Base::MeanLogStretch))
             .map(|(base, slope)| (*base, self.means.over_det(slope)))
             .collect();
+        let needs_tensor =
+            slopes.iter().any(|(base, _)| matches!(base, Base::TraceOfSquare | Base::Green(..)))
+                || self
+                    .load
+                    .shared
+                    .iter()
+                    .any(|(symbol, _)| arena.quantity(*symbol) == Some(Quantity::IsochoricExcess));
+        let deviates =
+            matches!(&self.means, Means::Strains(counting) if counting.writing == Writing::Deviators);
+        // In the plane products of matrices are shorter.
+        if deviates && !needs_tensor && self.chart.dim == 3 {
+            return self.stress_of_trace(arena, tensors, &of(slopes, Base::Trace), &over);
+        }
         let stress = self.about_the_mean(arena, &over);
         let mut force = self.times_stress(arena, &tensors.cofactors, &stress);
         let entries = self.of_entries(arena, slopes);
@@ -204,18 +223,62 @@ impl Draft<'_> {
         force
     }
 
+    /// `cof (c + k B)/det` with the deviator `B` of `G`: `k cof B = a phi - k m cof`, on the diagonal through differences.
+    fn stress_of_trace(
+        &mut self,
+        arena: &mut Arena,
+        tensors: &Tensors<Polynomial>,
+        slope: &Polynomial,
+        over: Slopes,
+    ) -> Square<Polynomial> {
+        let n = self.chart.dim;
+        let [v, along] = [Base::MeanLogStretch, Base::Trace].map(|base| of(over, base));
+        let trace = Base::Trace.symbol(arena);
+        if let Means::Strains(counting) = &self.means {
+            let value = counting.strains.trace_through_axes(arena);
+            self.share(vec![(trace, value)]);
+        }
+        let offset = self.means.offset(arena, &[v, along.clone()]);
+        let offset = self.named(arena, Quantity::Offset, &offset);
+        let along = self.named(arena, Quantity::Stress, &along);
+        let of_mean = self.named(arena, Quantity::MeanStress, &along.scaled(&Rational::one_over(n)));
+        let slope = self.named(arena, Base::Trace.slope(), slope);
+        let mut swelling = offset.clone();
+        swelling.add_product(&of_mean, &Polynomial::atom(trace), &Rational::MINUS_ONE);
+        let swelling = self.named(arena, Quantity::Swelling, &swelling);
+        let mut force = self.empty();
+        for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+            let (phi, cofactor, entry) = (&tensors.phi[i][a], &tensors.cofactors[i][a], &mut force[i][a]);
+            if i != a {
+                entry.add_product(&slope, phi, &Rational::ONE);
+                entry.add_product(&swelling, cofactor, &Rational::ONE);
+                continue;
+            }
+            let Means::Strains(counting) = &self.means else { continue };
+            let [deviator, others] = counting.strains.on_axis(arena, a);
+            let mut before = offset.clone();
+            before.add_product(&of_mean, &deviator, &Rational::ONE);
+            entry.add_product(&before, cofactor, &Rational::ONE);
+            entry.add_product(&along.mul(&others), phi, &Rational::ONE);
+        }
+        force
+    }
+
     /// `v + a G + b G^2 = c + k X + b X^2` with `X = G - m`, where the mean `m` is `tr(G)/n` or 1: `k = a + 2 b m`; `Ct` for `G`
-    /// where the chart reads that.
+    /// where the chart reads that. About 1 with `d G^3` too: `k = a + 2 b + 3 d`, and `(b + 3 d) X^2 + d X^3`.
     fn about_the_mean(&mut self, arena: &mut Arena, slopes: Slopes) -> Square<Polynomial> {
         let n = self.chart.dim;
-        let [v, a, b] = [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare].map(|base| of(slopes, base));
+        let [v, a, b, d] = [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare, Base::TraceOfCube]
+            .map(|base| of(slopes, base));
         if let Means::Strains(counting) = &self.means
             && counting.writing == Writing::Inverses
         {
             return self.about_the_inverse(arena, [&v, &a, &b]);
         }
-        let offset = self.means.offset(arena, [&v, &a, &b]);
+        let powers = [v, a, b, d];
+        let offset = self.means.offset(arena, &powers);
         let offset = self.named(arena, Quantity::Offset, &offset);
+        let [_, a, mut b, d] = powers;
         let Means::Strains(counting) = &self.means else { return self.empty() };
         let strains = &counting.strains;
         let mut mean = Polynomial::constant(Rational::ONE);
@@ -230,10 +293,17 @@ impl Draft<'_> {
         }
         let mut along = a;
         along.add_product(&b, &mean, &Rational::from(2));
+        along.add_scaled(&d, &Rational::from(3));
+        b.add_scaled(&d, &Rational::from(3));
         let along = self.named(arena, Quantity::Stress, &along);
         let second = self.named(arena, Base::TraceOfSquare.slope(), &b);
+        let third = self.named(arena, Base::TraceOfCube.slope(), &d);
         let mut stress = self.empty();
+        let Means::Strains(counting) = &self.means else { return stress };
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            if !d.is_zero() {
+                stress[a][b].add_product(&third, &counting.strains.cube(arena, a, b), &Rational::ONE);
+            }
             stress[a][b].add_product(&along, &about[a][b], &Rational::ONE);
             let mut square = Polynomial::zero();
             (0..n).for_each(|c| square.add_product(&about[a][c], &about[c][b], &Rational::ONE));
@@ -273,7 +343,9 @@ impl Draft<'_> {
         let counts = matches!(self.means, Means::Strains(_));
         let mut force = if counts { self.about_the_mean(arena, slopes) } else { self.empty() };
         for (base, slope) in slopes {
-            if counts && matches!(base, Base::Trace | Base::TraceOfSquare | Base::MeanLogStretch) {
+            let isotropic =
+                matches!(base, Base::MeanLogStretch | Base::Trace | Base::TraceOfSquare | Base::TraceOfCube);
+            if counts && isotropic {
                 continue;
             }
             for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {

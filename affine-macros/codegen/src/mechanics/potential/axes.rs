@@ -37,6 +37,13 @@ impl Potential {
         self.slopes.iter().all(|(base, _)| *base == Base::MeanLogStretch)
     }
 
+    /// Does it depend on `q_1, .., q_n` alone?
+    #[must_use]
+    pub fn is_of_places(&self) -> bool {
+        let is_place = |base: &Base| matches!(base, Base::LogStretch(_) | Base::MeanLogStretch);
+        self.slopes.iter().all(|(base, _)| is_place(base)) && !self.depends_on_time()
+    }
+
     /// The potential on the principal axes, where it is isotropic: off-diagonal entries of tensors are zero there.
     pub fn on_axes(&self, arena: &mut Arena, lattice: &Lattice) -> OnAxes {
         let stretches: Vec<Expr> = arena.components(Quantity::Stretches, self.dim);
@@ -83,6 +90,16 @@ impl Potential {
         axes.energy_shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&value))));
         axes.energy_shared.extend(definitions);
         axes
+    }
+}
+
+impl OnAxes {
+    /// Forces on SL(n), where the sum of the momenta vanishes: each less their mean.
+    pub fn keep_volume(&mut self) {
+        let mut mean = Polynomial::zero();
+        let nth = Rational::one_over(self.forces.len());
+        self.forces.iter().for_each(|force| mean.add_scaled(force, &nth));
+        self.forces.iter_mut().for_each(|force| force.add_scaled(&mean, &Rational::MINUS_ONE));
     }
 }
 
@@ -153,7 +170,6 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     let [q, d, inverse_d] =
         arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
     match lattice.variables {
-        // U(n) has no potentials.
         Variables::LogStretches | Variables::Angles => {
             let mut mean = Polynomial::zero();
             for (place, stretch) in lattice.q.iter().zip(stretches) {

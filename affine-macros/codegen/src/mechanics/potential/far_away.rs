@@ -9,7 +9,7 @@ use super::Potential;
 use super::base::Base;
 use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{collected, definitions, scaled_bases};
-use super::sums::{Sums, multiplied_out};
+use super::sums::{Sizes, Sums};
 
 /// Energies are multiplied out up to so many terms.
 const MOST_TERMS: u32 = 256;
@@ -45,7 +45,7 @@ impl Potential {
         let named = sums.named(arena, energy);
         // A power of `D` in a sum may have to cancel one beside it.
         let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
-        if scaled && multiplied_out(arena, energy) <= MOST_TERMS {
+        if scaled && Sizes::default().of(arena, energy) <= MOST_TERMS {
             return Some((collected(arena, energy, d), shared));
         }
         let energy = named;

@@ -1,5 +1,7 @@
 //! Functions of `q` in the forms that right-hand sides and energies need.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
 use crate::algebra::rational::exponent;
@@ -99,18 +101,25 @@ pub(super) fn about_undeformed(arena: &mut Arena, expr: Expr) -> Expr {
 }
 
 /// Replaces powers of functions for which `value(function, argument, exponent)` knows better, from the inside out.
-fn rewritten(
-    arena: &mut Arena,
-    expr: Expr,
-    value: &dyn Fn(&mut Arena, Function, Expr, i32) -> Option<Expr>,
-) -> Expr {
-    match arena.node(expr).clone() {
-        Node::Constant(_) | Node::Symbol(_) => expr,
+fn rewritten(arena: &mut Arena, expr: Expr, value: &Better) -> Expr {
+    rewritten_once(arena, expr, value, &mut FxHashMap::default())
+}
+
+/// What knows better.
+type Better<'a> = dyn Fn(&mut Arena, Function, Expr, i32) -> Option<Expr> + 'a;
+
+/// The same with what became of the parts that were met before.
+fn rewritten_once(arena: &mut Arena, expr: Expr, value: &Better, done: &mut FxHashMap<Expr, Expr>) -> Expr {
+    if let Some(done) = done.get(&expr) {
+        return *done;
+    }
+    let rewritten = match arena.node(expr).clone() {
+        Node::Constant(_) | Node::Symbol(_) => return expr,
         Node::Sum(constant, terms) => {
             let constant = arena.constant(constant);
             let mut summands = vec![(constant, Rational::ONE)];
             for (term, c) in terms {
-                summands.push((rewritten(arena, term, value), c));
+                summands.push((rewritten_once(arena, term, value, done), c));
             }
             arena.linear(&summands)
         }
@@ -123,7 +132,7 @@ fn rewritten(
                 };
                 product.push(match known {
                     Some(power) => (power, 1),
-                    None => (rewritten(arena, base, value), exponent),
+                    None => (rewritten_once(arena, base, value, done), exponent),
                 });
             }
             // The bases were not the number zero, and keep their values.
@@ -132,9 +141,11 @@ fn rewritten(
         Node::Function(function, argument) => match value(arena, function, argument, 1) {
             Some(known) => known,
             None => {
-                let argument = rewritten(arena, argument, value);
+                let argument = rewritten_once(arena, argument, value, done);
                 arena.apply(function, argument)
             }
         },
-    }
+    };
+    done.insert(expr, rewritten);
+    rewritten
 }

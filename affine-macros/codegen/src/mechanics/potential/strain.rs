@@ -90,14 +90,12 @@ impl Strains {
                 list.push((*symbol, Counted::from(i64::from(a == b), atom(change))));
             }
         }
-        let [first, of_square, minors] = arena.symbols([
-            Quantity::Strain.at([1]),
-            Quantity::Strain.at([2]),
-            Quantity::StrainMinors.into(),
-        ]);
+        let [first, of_square, of_cube, minors] = invariants(arena);
         let n = Rational::whole(self.n);
-        list.push((Base::Trace.symbol(arena), Counted::from(n.clone(), atom(first))));
-        list.push((Base::TraceOfSquare.symbol(arena), Counted::from(n, atom(of_square))));
+        let traces = [(Base::Trace, first), (Base::TraceOfSquare, of_square), (Base::TraceOfCube, of_cube)];
+        for (base, excess) in traces {
+            list.push((base.symbol(arena), Counted::from(n.clone(), atom(excess))));
+        }
         let nth = Rational::one_over(self.n);
         list.push((
             arena.symbol(Quantity::MeanSquareStretch),
@@ -183,11 +181,7 @@ impl Strains {
 
     /// Traces, of `G` or of `Ct`.
     fn invariants(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
-        let [first, of_square, minors] = arena.symbols([
-            Quantity::Strain.at([1]),
-            Quantity::Strain.at([2]),
-            Quantity::StrainMinors.into(),
-        ]);
+        let [first, of_square, of_cube, minors] = invariants(arena);
         let (mut sum, mut squares, mut products) =
             (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
         let strain = if self.spatial { &self.finger } else { &self.green };
@@ -206,6 +200,16 @@ impl Strains {
         list.push((first, sum));
         list.push((of_square, squares));
         list.push((minors, products));
+        // tr G^3 - n = 3 (tr G^2 - n) - 3 (tr G - n) + tr M^3
+        let mut cubes = Polynomial::term(vec![of_square], Rational::from(3));
+        cubes.add_term(vec![first], &Rational::from(-3));
+        for (a, b) in (0..self.n).flat_map(|a| (0..self.n).map(move |b| (a, b))) {
+            cubes.add_product(&self.strain(arena, a, b), &self.square(arena, a, b), &Rational::ONE);
+        }
+        list.push((of_cube, cubes));
+        for (a, b) in (0..self.n).flat_map(|a| (a..self.n).map(move |b| (a, b))) {
+            list.push((square(arena, a, b), self.times_strain(arena, a, b, Self::strain)));
+        }
     }
 
     /// Cofactors, determinant, its logarithm and root.
@@ -285,6 +289,32 @@ impl Strains {
         Polynomial::atom(if a == b { diagonal[a] } else { base(a, b).symbol(arena) })
     }
 
+    /// The square of that, as symbols.
+    pub(super) fn square(&self, arena: &mut Arena, a: usize, b: usize) -> Polynomial {
+        Polynomial::atom(square(arena, a, b))
+    }
+
+    /// Its cube.
+    pub(super) fn cube(&self, arena: &mut Arena, a: usize, b: usize) -> Polynomial {
+        self.times_strain(arena, a, b, Self::square)
+    }
+
+    /// An entry of the strain times a matrix.
+    fn times_strain(
+        &self,
+        arena: &mut Arena,
+        a: usize,
+        b: usize,
+        entry: fn(&Self, &mut Arena, usize, usize) -> Polynomial,
+    ) -> Polynomial {
+        let mut sum = Polynomial::zero();
+        for c in 0..self.n {
+            let (left, right) = (self.strain(arena, a, c), entry(self, arena, c, b));
+            sum.add_product(&left, &right, &Rational::ONE);
+        }
+        sum
+    }
+
     /// `G^-1 (G - 1)`, or `Ct^-1 (Ct - 1)` where the chart reads that, as symbols with their definitions.
     pub(super) fn times_inverse(&self, arena: &mut Arena) -> (Square<Polynomial>, Vec<(Expr, Polynomial)>) {
         let n = self.n;
@@ -322,6 +352,17 @@ impl Strains {
     pub(super) fn asymmetry(&self, a: usize) -> Polynomial {
         Polynomial::atom(self.asymmetry[a])
     }
+}
+
+/// The symbols of `tr G - n`, `tr G^2 - n`, `tr G^3 - n` and of the sum of the minors of `G - 1`.
+fn invariants(arena: &mut Arena) -> [Expr; 4] {
+    let [first, of_square, of_cube] = [1, 2, 3].map(|power| arena.symbol(Quantity::Strain.at([power])));
+    [first, of_square, of_cube, arena.symbol(Quantity::StrainMinors)]
+}
+
+/// The symbol of an entry of the square of the strain.
+fn square(arena: &mut Arena, a: usize, b: usize) -> Expr {
+    arena.symbol(Quantity::StrainSquare.at([a.min(b) + 1, a.max(b) + 1]))
 }
 
 /// The symbol of the difference of two neighbours on the diagonal of `phi`, and its sign.

@@ -74,9 +74,9 @@ impl Potential {
         if self.has_single_stretches() {
             return vec![Writing::Plain, Writing::Differences];
         }
-        let mut list = vec![Writing::Plain];
+        let mut list = vec![Writing::Plain, Writing::Differences];
         if self.slopes.iter().all(|(base, _)| *base != Base::TraceOfCube) {
-            list.extend([Writing::Differences, Writing::Deviators]);
+            list.push(Writing::Deviators);
             list.extend(self.is_of_minors(arena).then_some(Writing::Inverses));
         }
         if self.is_steep(arena) {
@@ -90,12 +90,6 @@ impl Potential {
     pub fn written(mut self, momentum: Momentum, writing: Writing) -> Self {
         self.writings.push((momentum, writing));
         self
-    }
-
-    /// Was a way chosen beside this momentum?
-    #[must_use]
-    pub fn is_written(&self, momentum: Momentum) -> bool {
-        self.writings.iter().any(|(known, _)| *known == momentum)
     }
 
     /// The way that was chosen for a chart.
@@ -243,18 +237,21 @@ impl Means {
         if counted || !small.any_symbol(arena, &mut |s| s == excess) { small } else { form }
     }
 
-    /// What stands before the unit matrix: `v + a m + b m^2`, where the mean `m` of `G` is `tr(G)/n` or 1.
-    pub(super) fn offset(&mut self, arena: &mut Arena, [v, a, b]: [&Polynomial; 3]) -> Polynomial {
-        let Self::Strains(counting) = self else { return v.clone() };
+    /// What stands before the unit matrix: `v + a m + b m^2 + ..`, where the mean `m` of `G` is `tr(G)/n` or 1.
+    pub(super) fn offset(&mut self, arena: &mut Arena, powers: &[Polynomial]) -> Polynomial {
+        let Self::Strains(counting) = self else { return Polynomial::zero() };
         let Counting { volume, strains, undeformed, writing } = &mut **counting;
-        let mut sum = v.clone();
         let deviates = *writing == Writing::Deviators;
         let mean = match deviates {
             true => Polynomial::atom(arena.symbol(Quantity::MeanSquareStretch)),
             false => Polynomial::constant(Rational::ONE),
         };
-        sum.add_product(a, &mean, &Rational::ONE);
-        sum.add_product(b, &mean.mul(&mean), &Rational::ONE);
+        let mut sum = Polynomial::zero();
+        let mut power = Polynomial::constant(Rational::ONE);
+        for coefficient in powers {
+            sum.add_product(coefficient, &power, &Rational::ONE);
+            power = power.mul(&mean);
+        }
         if deviates {
             sum = strains.through_deviator(arena, &sum);
         }

@@ -56,8 +56,12 @@ pub(super) fn systems(
     };
     let carried = [Carried::InverseDilatation, Carried::MeanLogStretch].into_iter().filter(is_state);
     let rootless = (carried.collect(), rootless);
-    // Forces with phi^-1 must not form det phi, however short their equations were with it.
-    if inverts { vec![rootless] } else { vec![rootless, (Vec::new(), system)] }
+    // Forces with phi^-1 must not form det phi, however short their equations were with it. On a flat body its powers alone stand
+    // beside cofactors, and whether that reaches as far is seen where it runs.
+    if inverts && chart.momentum != Momentum::Canonical {
+        return vec![rootless];
+    }
+    vec![rootless, (Vec::new(), system)]
 }
 
 /// The system with `r' = -(r/n) tr(phi^-1 phi')` in place of the root, `q' = tr(phi^-1 phi')/n` in place of the

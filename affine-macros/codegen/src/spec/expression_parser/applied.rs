@@ -6,7 +6,7 @@ use super::{Language, Parser};
 use crate::algebra::fault::never_missing;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported};
-use crate::spec::custom;
+use crate::spec::custom::{self, SELF_GRAVITY};
 use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
 use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
 use crate::spec::names::{Named, nearest};
@@ -63,6 +63,10 @@ impl Parser<'_> {
             "pairs" => ExpressionKind::Pairs(Box::new(self.argument("pairs", group, span)?)),
             "custom" => {
                 let mistake = custom::within_an_expression();
+                return Err(self.found.report(name.span(), mistake));
+            }
+            SELF_GRAVITY => {
+                let mistake = PotentialMistake::SummandByItself { name: SELF_GRAVITY };
                 return Err(self.found.report(name.span(), mistake));
             }
             _ => match FUNCTIONS.into_iter().find(|function| function.name() == text) {
@@ -193,6 +197,7 @@ pub(crate) fn application(name: &str) -> Option<String> {
         .map(|potential| format!("{name}({})", potential.parameters.join(", ")))
         .or_else(|| is_function.then(|| format!("{name}(a)")))
         .or_else(|| (name == "tr").then(|| "tr(G)".to_owned()))
+        .or_else(|| (name == SELF_GRAVITY).then(|| format!("{name}(k)")))
 }
 
 fn unknown(name: &str) -> PotentialMistake {
@@ -202,6 +207,7 @@ fn unknown(name: &str) -> PotentialMistake {
         .chain(PHRASES)
         .chain(FORMS)
         .chain(NAMED_POTENTIALS.iter().map(|potential| potential.name))
+        .chain([SELF_GRAVITY])
         .collect();
     let nearest = nearest(name, known.iter().copied());
     PotentialMistake::UnknownFunction {

@@ -79,15 +79,12 @@ impl Forces {
 
     /// Do they move a body whose energy is written so?
     pub(super) fn act_on(self, energy: &str) -> bool {
-        let in_pi = energy.contains("isochoric") && energy.contains("dalembert");
         let of_velocities = matches!(self, Self::Damped | Self::Viscous | Self::Dragged)
             || matches!(self, Self::Computed("spatial" | "comoving" | "translation"));
         let strains =
             matches!(self, Self::Separable | Self::Isotropic | Self::Stretches | Self::Green | Self::Finger);
         match self {
             _ if self.need_a_centre() && !energy.contains("translation") => false,
-            // The multiplier of a constraint is left to a method that takes potentials alone.
-            _ if of_velocities && in_pi => false,
             // The velocity is no linear function of the momentum.
             Self::Computed(_) => !energy.contains("casimir3"),
             _ if of_velocities => !energy.contains("casimir3"),
@@ -166,7 +163,10 @@ impl Forces {
             Self::Computed(class) => {
                 let beside = if confined { ["", " + phi[1,2]", ""] } else { ["", " + q^2", " + tr(G)"] };
                 let beside = beside[chosen(random, 3)];
-                format!(", potential = custom(f, {class}){beside}")
+                match class == "isotropic" && n == 3 && chosen(random, 2) == 1 {
+                    true => format!(", potential = self_gravity({c}){beside}"),
+                    false => format!(", potential = custom(f, {class}){beside}"),
+                }
             }
         }
     }
@@ -245,6 +245,9 @@ pub(super) fn energies(random: &mut Random, n: usize) -> Vec<String> {
                 "dalembert = 2".to_owned(),
                 format!("dalembert = diag({diagonal})"),
             ];
+            // On SL(n) the masses of d'Alembert are a matrix that depends on the placement.
+            let has_one_frame = |inertia: &String| group != "isochoric" || !inertia.contains("dalembert");
+            let inertias = inertias.into_iter().filter(has_one_frame);
             list.extend(
                 inertias.map(|inertia| format!("constraint = {group}, kinetic({inertia}{translation})")),
             );
@@ -253,8 +256,8 @@ pub(super) fn energies(random: &mut Random, n: usize) -> Vec<String> {
     list
 }
 
-/// Sums of energies of different frames.
-pub(super) const SUMS: [&str; 8] = [
+/// Energies whose mass matrix depends on the placement.
+pub(super) const SUMS: [&str; 10] = [
     "kinetic(dalembert = 2, casimir2 = 1/5, space_translation = 1)",
     "kinetic(dalembert = 2, body_inertia = 1/5, body_translation = 1)",
     "kinetic(body_inertia = 1, space_inertia = 2)",
@@ -263,4 +266,6 @@ pub(super) const SUMS: [&str; 8] = [
     "kinetic(dalembert = 3, body_translation = 1, space_translation = 2)",
     "constraint = rigid, kinetic(dalembert = 2, space_inertia = 1, space_translation = 2)",
     "kinetic(dalembert = 2, casimir2 = 1/5)",
+    "constraint = isochoric, kinetic(dalembert = 2)",
+    "constraint = isochoric, kinetic(dalembert = 1, space_translation = 3/2)",
 ];

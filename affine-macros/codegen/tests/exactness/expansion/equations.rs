@@ -101,6 +101,8 @@ fn called(
             let place_and_time = if moves { t_and_x } else { &t_and_x[..1] };
             Some(slopes(place, class, place_and_time, &square(phi)))
         }
+        // Any isotropic function.
+        Callee::EllipsoidalSlopes => Some(slopes(0, 0, &[], &square(arguments)).split_off(n)),
         // Any function of its arguments.
         Callee::Custom(place, Asked::Force(..)) => {
             let count = results.iter().map(|group| group.entries().len()).sum();

@@ -39,7 +39,7 @@ fn taken(model: &Model) -> Taken {
             },
         }
     });
-    Taken::new(model.constraint.filter(|_| model.projected), &model.dynamics.reduction, dilatation, &number)
+    Taken::new(model.constraint, &model.dynamics.reduction, dilatation, &number)
 }
 
 /// The expansion of the reduced motion against the full one, at a random point.

@@ -106,7 +106,7 @@ impl Whole {
             },
         };
         let dilatation = reduction.dilatation.as_ref().map(dilatation);
-        Taken::new(self.h.confined(), reduction, dilatation, &number)
+        Taken::new(self.h.constraint, reduction, dilatation, &number)
     }
 
     /// Every way to reduce the motion against the whole one, with a momentum for each position or not; what they take out.
@@ -118,9 +118,7 @@ impl Whole {
         assert!(!ways.is_empty(), "{}", self.args);
         let rests: Vec<bool> = ways.iter().map(|way| self.check_one(random, way)).collect();
         for (way, resting) in ways.iter().zip(&rests) {
-            // The multiplier of a constraint moves what nothing else does.
-            let by_multiplier = self.h.constraint.is_some() && self.h.confined().is_none();
-            if halves || by_multiplier {
+            if halves {
                 self.every_position_has_a_momentum(way);
             }
             // Written through the velocity, what cancels is not seen to; then another way leaves it out.
@@ -214,7 +212,7 @@ impl Whole {
     /// Has the motion through a random point the closed form?
     fn is_closed(&self, random: &mut Random, at_rest: bool) -> bool {
         let coefficients = self.coefficients(random);
-        let taken = Taken::of(self.h.confined(), &self.own, false);
+        let taken = Taken::of(self.h.constraint, &self.own, false);
         let point = Point::random(random, &taken);
         let point = if at_rest { point.at_rest() } else { point };
         let mut here = point.reduced(&taken);

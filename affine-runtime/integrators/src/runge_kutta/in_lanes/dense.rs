@@ -1,19 +1,19 @@
-//! Dense output of the body in a lane.
+//! Dense output of bodies in lanes.
 
-use super::RungeKutta8InLanes;
+use pulp::{Simd, WithSimd};
+
+use super::before::Before;
+use super::{AT_END, RungeKutta8InLanes, combination};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
-use crate::lie::{Flat, Sum};
-use crate::runge_kutta::field::Field;
-use crate::runge_kutta::pair::Step;
-use crate::runge_kutta::step::Dense;
-use crate::vectors::Baseline;
+use crate::lanes::parts::{in_lanes, part, parts, set_part};
+use crate::runge_kutta::dormand_prince_853::*;
 use affine_core::model::StateVector;
 
 impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F> {
-    /// Keeps where each step began, from the next one on: what [`dense`](Self::dense) is made of.
+    /// Keeps where each step begins, from the next one on: what [`within`](Self::within) asks.
     pub fn keep(&mut self) {
-        self.before = Some((self.clocks.t, self.y, self.stages[0]));
+        self.before = Some(Before::none(self.clocks.t));
     }
 
     /// Time reached in a lane.
@@ -23,28 +23,118 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     /// The last attempt in a lane was a step, of those that are kept.
     pub fn has_stepped(&self, lane: usize) -> bool {
-        self.before.as_ref().is_some_and(|(t, ..)| t.lane(lane) != self.t(lane))
+        self.before.as_ref().is_some_and(|before| before.t.lane(lane) != self.t(lane))
     }
 
-    /// Dense output over the last step in a lane, which was [kept](Self::keep), by the equations of its body: that of
-    /// [`RungeKutta8`](super::RungeKutta8), operation by operation. `None` where there was no step.
-    pub fn dense<R: StateVector<f64>, L: StateVector<f64>>(
-        &self,
-        lane: usize,
-        field: &impl Field<R, Flat, L>,
-    ) -> Option<Dense<R>> {
-        let (t, y, slope) = self.before.as_ref().filter(|_| self.has_stepped(lane))?;
-        let of_lane = |lanes: &S| {
-            let mut state = R::zeros();
-            for (component, lanes) in state.as_mut().iter_mut().zip(lanes.as_ref()) {
-                *component = lanes.lane(lane);
+    /// The state in a lane at a time within its last step, which was [kept](Self::keep): by the dense output of
+    /// [`RungeKutta8`](super::super::RungeKutta8), operation by operation. `None` where there was no step. The first time that is
+    /// asked for costs three evaluations, which serve all lanes until they step again.
+    pub fn within<R: StateVector<f64>>(&mut self, lane: usize, t: f64) -> Option<R> {
+        if !self.has_stepped(lane) {
+            return None;
+        }
+        if self.before.as_ref().is_some_and(|before| !before.is_dense) {
+            let is_a_last_resort = self.f.are_a_last_resort();
+            in_lanes::<T, _>(Polynomials(self), is_a_last_resort);
+        }
+        let Before { t: begin, y, coefficients, .. } = self.before.as_ref()?;
+        let (begin, end) = (begin.lane(lane), self.t(lane));
+        let mut state = R::zeros();
+        if t == end {
+            copied(&self.y, lane, &mut state);
+            return Some(state);
+        }
+        let theta = (t - begin) / (end - begin);
+        let mut of_body = R::zeros();
+        for (k, of_lanes) in coefficients.iter().enumerate().rev() {
+            copied(of_lanes, lane, &mut of_body);
+            let factor = if k % 2 == 0 { theta } else { 1.0 - theta };
+            for (value, coefficient) in state.as_mut().iter_mut().zip(of_body.as_ref()) {
+                *value = (*value + coefficient) * factor;
             }
-            field.stored(&state)
-        };
-        let mut step = Step::at(t.lane(lane), of_lane(y), of_lane(slope));
-        step.taken((self.t(lane), of_lane(&self.y)), self.stages[1..].iter().map(of_lane));
-        let base = Sum::of(field.read(&of_lane(y)));
-        let dense = step.dense_in(&field.stages(Baseline, Flat, &base));
-        Some(dense.read(|stored| field.read(stored)))
+        }
+        copied(y, lane, &mut of_body);
+        state.as_mut().iter_mut().zip(of_body.as_ref()).for_each(|(value, y)| *value += y);
+        Some(state)
+    }
+}
+
+/// What stands in a lane.
+#[inline(always)]
+fn copied<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(lanes: &S, lane: usize, state: &mut R) {
+    for (component, lanes) in state.as_mut().iter_mut().zip(lanes.as_ref()) {
+        *component = lanes.lane(lane);
+    }
+}
+
+/// The coefficients of [`Dense`](super::super::Dense) over the last steps.
+struct Polynomials<'a, T, S, F>(&'a mut RungeKutta8InLanes<T, S, F>);
+
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Polynomials<'_, T, S, F> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, simd: V) {
+        let Self(steps) = self;
+        let Some(Before { t, y, slope, .. }) = &steps.before else { return };
+        // As in the attempt, whose stages but the first are still there.
+        let (clocks, reached, next) = (steps.clocks, steps.y, steps.stages[0]);
+        (steps.clocks.t, steps.clocks.end, steps.y, steps.stages[0]) = (*t, clocks.t, *y, *slope);
+        let h = steps.clocks.end - steps.clocks.t;
+        steps.stage(simd, h, NODES[12], &A14);
+        steps.stage(simd, h, NODES[13], &A15);
+        steps.stage(simd, h, NODES[14], &A16);
+        let RungeKutta8InLanes { y, stages, before, .. } = steps;
+        if let Some(Before { coefficients: [first, second, third, d4, d5, d6, d7], is_dense, .. }) = before {
+            of_ends(simd, h, [y, &reached], [&stages[0], &stages[AT_END]], [first, second, third]);
+            of_slopes(simd, h, stages, &D4, d4);
+            of_slopes(simd, h, stages, &D5, d5);
+            of_slopes(simd, h, stages, &D6, d6);
+            of_slopes(simd, h, stages, &D7, d7);
+            *is_dense = true;
+        }
+        (steps.clocks, steps.y, steps.stages[0]) = (clocks, reached, next);
+    }
+}
+
+/// The coefficients of the values and slopes at both ends.
+#[inline(always)]
+fn of_ends<V: Simd, T: Lanes, S: StateVector<T>>(
+    simd: V,
+    h: T,
+    values: [&S; 2],
+    slopes: [&S; 2],
+    coefficients: [&mut S; 3],
+) {
+    let [rises, seconds, thirds] = coefficients;
+    for k in 0..parts::<V, T>() {
+        let h = part(simd, &h, k);
+        for i in 0..S::LEN {
+            let begin = simd.mul_f64s(h, part(simd, &slopes[0].as_ref()[i], k));
+            let end = simd.mul_f64s(h, part(simd, &slopes[1].as_ref()[i], k));
+            let (y, reached) = (&values[0].as_ref()[i], &values[1].as_ref()[i]);
+            let rise = simd.sub_f64s(part(simd, reached, k), part(simd, y, k));
+            let twice = simd.mul_f64s(simd.splat_f64s(2.0), rise);
+            set_part(simd, &mut rises.as_mut()[i], k, rise);
+            set_part(simd, &mut seconds.as_mut()[i], k, simd.sub_f64s(begin, rise));
+            set_part(simd, &mut thirds.as_mut()[i], k, simd.sub_f64s(twice, simd.add_f64s(begin, end)));
+        }
+    }
+}
+
+/// The coefficients by the slopes of a row.
+#[inline(always)]
+fn of_slopes<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
+    simd: V,
+    h: T,
+    stages: &[S; super::STAGES],
+    row: &[(usize, f64); TERMS],
+    coefficients: &mut S,
+) {
+    for k in 0..parts::<V, T>() {
+        let h = part(simd, &h, k);
+        for i in 0..S::LEN {
+            let sum = combination(simd, stages, (i, k), row, TERMS);
+            set_part(simd, &mut coefficients.as_mut()[i], k, simd.mul_f64s(h, sum));
+        }
     }
 }

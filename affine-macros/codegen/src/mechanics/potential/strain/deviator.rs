@@ -15,6 +15,46 @@ impl Strains {
         (0..self.n).map(|a| (0..self.n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
     }
 
+    /// `cof (G - tr(G)/3)` through `det phi = cof G`, without the entries of `G`: `det phi_ia - cof_ia tr(G)/3` beside the diagonal,
+    /// `cof_aa (3 phi_aa^2 - tr G)/3 + phi_aa o_a` on it, where `det = phi_aa cof_aa + o_a` in row `a`. The factors `phi_ia` and
+    /// `cof_ia` with what they stand beside: `det`, and on the diagonal the other two.
+    pub(in crate::mechanics::potential) fn on_axis(&self, arena: &mut Arena, a: usize) -> [Polynomial; 2] {
+        let mut others = Polynomial::zero();
+        for b in (0..self.n).filter(|b| *b != a) {
+            others.add_product(&self.phi[a][b], &Polynomial::atom(self.cofactors[a][b]), &Rational::ONE);
+        }
+        [Polynomial::atom(axial_deviator(arena, a)), others]
+    }
+
+    /// What that and `tr G` are in space: `3 phi_22^2 - tr G` through differences of squares, the others by differences from it.
+    fn axial_deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+        if self.n != 3 {
+            return;
+        }
+        let own = axial_deviator(arena, 1);
+        let mut value = Polynomial::zero();
+        for (a, sign) in [(0, Rational::ONE), (1, Rational::MINUS_ONE)] {
+            let of = [Quantity::PlacementDifference, Quantity::PlacementSum];
+            let squares = of.map(|of| arena.symbol(of.at([a + 1, a + 2]))).to_vec();
+            value.add_term(squares.clone(), &-&sign);
+            let mut other = Polynomial::term(squares, &sign * &Rational::from(3));
+            other.add_term(vec![own], &Rational::ONE);
+            list.push((axial_deviator(arena, 2 * a), other));
+        }
+        for (i, a) in (0..3).flat_map(|i| (0..3).map(move |a| (i, a))).filter(|(i, a)| i != a) {
+            value.add_product(&self.phi[i][a], &self.phi[i][a], &Rational::MINUS_ONE);
+        }
+        list.push((own, value));
+    }
+
+    /// `tr G` through that.
+    pub(in crate::mechanics::potential) fn trace_through_axes(&self, arena: &mut Arena) -> Polynomial {
+        let own = &self.phi[1][1];
+        let mut trace = own.mul(own).scaled(&Rational::from(3));
+        trace.add_term(vec![axial_deviator(arena, 1)], &Rational::MINUS_ONE);
+        trace
+    }
+
     /// Its entries, on the diagonal through differences of squares, and the trace of its square.
     pub(super) fn deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
         let n = self.n;
@@ -47,6 +87,7 @@ impl Strains {
                 entry.add_term(vec![of_squares], &weight);
             }
         }
+        self.axial_deviators(arena, list);
         let symbols = self.deviator(arena);
         let mut square = Polynomial::zero();
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
@@ -87,4 +128,9 @@ impl Strains {
             values.iter().find(|(known, _)| *known == atom).map(|(_, value)| value.clone())
         })
     }
+}
+
+/// The symbol of `3 phi_aa^2 - tr G`.
+fn axial_deviator(arena: &mut Arena, a: usize) -> Expr {
+    arena.symbol(Quantity::AxialDeviator.at([a + 1]))
 }
