@@ -354,10 +354,16 @@ fn fields_are_called_what_the_user_called_them() {
     let model =
         Described::derived("dim = 2, kinetic(body_inertia = j), dissipation(space_tensor = k)", matrix);
     let expected = [
-        ("T = 1/2 tr(Omega_hat j Omega_hat^T)", r"T = \operatorname{tr}(\hat\Omega j \hat\Omega^T)"),
-        ("H = 1/2 tr(Sigma_hat^T j^-1 Sigma_hat)", r"H = \operatorname{tr}(\hat\Sigma^T j^{-1} \hat\Sigma)"),
+        (
+            "T = 1/2 tr(Omega_hat j Omega_hat^T)",
+            r"T = \operatorname{tr}\left(\hat\Omega j \hat\Omega^T\right)",
+        ),
+        (
+            "H = 1/2 tr(Sigma_hat^T j^-1 Sigma_hat)",
+            r"H = \operatorname{tr}\left(\hat\Sigma^T j^{-1} \hat\Sigma\right)",
+        ),
         ("Omega_hat = Sigma_hat^T j^-1", r"\hat\Omega = \hat\Sigma^T j^{-1}"),
-        ("R = 1/2 k[(A,B),(C,D)] Omega[A,B] Omega[C,D]", r"R = k_{(AB)(CD)}\,\Omega_{AB}\Omega_{CD}"),
+        ("R = 1/2 k[(A,B),(C,D)] Omega[A,B] Omega[C,D]", r"R = k_{(AB)(CD)} \Omega_{AB} \Omega_{CD}"),
         (
             "Q_R_11 = -k[1,1]*omega_11 - k[1,2]*omega_12 - k[1,3]*omega_21 - k[1,4]*omega_22",
             r"Q_{R,11} = - k_{11} \Omega_{11} - k_{12} \Omega_{12} - k_{13} \Omega_{21} - k_{14} \Omega_{22}",
@@ -381,12 +387,12 @@ fn hostile_names() {
                    + 1/2*inverse_1_1_1 tr(Omega_hat Omega_hat^T) + 1/2*x_dot |phi^-1 dx/dt|^2";
     assert_eq!(
         model.latex_of(kinetic).replace(r"\frac{1}{2}\,", ""),
-        r"T = \mathtt{Omega}\, \operatorname{tr}\hat\Omega^2 + \mathtt{phi}\, (\operatorname{tr}\hat\Omega)^2 + \mathit{inverse\_1\_1\_1}\, \operatorname{tr}(\hat\Omega\hat\Omega^T) + \mathit{x\_dot}\, |\varphi^{-1}\dot x|^2"
+        r"T = \mathtt{Omega}\, \operatorname{tr}\hat\Omega^2 + \mathtt{phi}\, \left(\operatorname{tr}\hat\Omega\right)^2 + \mathit{inverse\_1\_1\_1}\, \operatorname{tr}\left(\hat\Omega \hat\Omega^T\right) + \mathit{x\_dot}\, |\varphi^{-1} \dot{x}|^2"
     );
     let friction = "R = 1/2*alpha_1 (tr Omega_hat)^2 + 1/2*kappa2 tr(Omega_hat Omega_hat^T)";
     assert_eq!(
         model.latex_of(friction).replace(r"\frac{1}{2}\,", ""),
-        r"R = \alpha_{1}\, (\operatorname{tr}\hat\Omega)^2 + \kappa_{2}\, \operatorname{tr}(\hat\Omega\hat\Omega^T)"
+        r"R = \alpha_{1}\, \left(\operatorname{tr}\hat\Omega\right)^2 + \kappa_{2}\, \operatorname{tr}\left(\hat\Omega \hat\Omega^T\right)"
     );
     // An index is set at a name that has one already.
     let inertia = Described::derived(

@@ -4,8 +4,7 @@ use crate::algebra::Arena;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::closed_form::ClosedForm;
-use crate::mechanics::describe::{self, Formula, Notation};
-use crate::mechanics::forces::Forces;
+use crate::mechanics::describe::{self, Notation, Sentence};
 use crate::mechanics::mixed::{self, ForceNames};
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::left_out::Scope;
@@ -38,7 +37,7 @@ impl Body<'_> {
                 (hamiltonian, equations, describe::system(arena, notation, &reduction.system))
             }
             (Some((kinetic, h)), None) => {
-                let internal = describe::hamiltonian(arena, notation, (h, kinetic), None, &Forces::default());
+                let internal = describe::kinetic_part(arena, notation, (h, kinetic));
                 let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
                 let reduced = describe::system(arena, notation, &reduction.system);
                 let equations = describe::system(arena, notation, &system);
@@ -47,11 +46,8 @@ impl Body<'_> {
             }
             (None, _) => {
                 let equations = self.in_parts(arena, notation, chart)?;
-                let internal = match motion.constraint() {
-                    None => mixed::internal_hamiltonian(),
-                    Some(_) => mixed::confined_hamiltonian(),
-                };
-                let hamiltonian = self.with_centre(arena, notation, internal);
+                let internal = mixed::internal_energy(arena, motion.constraint().is_some());
+                let hamiltonian = self.with_centre(arena, notation, (internal, Vec::new()));
                 (hamiltonian, self.with_forces(arena, notation, equations.clone()), equations)
             }
         };
@@ -59,21 +55,33 @@ impl Body<'_> {
         let pinned = pinned.then(|| Scope::Model.without("x and p: the model has no translation"));
         let closed = closed.map(|(_, only_at_rest)| ClosedForm::left_out(only_at_rest));
         let left_out = pinned.into_iter().chain(reduction.left_out()).chain(closed).collect();
-        Some(Formulas { kinetic_energy, hamiltonian, equations, reduced, left_out })
+        let printed = |sentence: &Sentence| notation.printed(arena, sentence);
+        Some(Formulas {
+            kinetic_energy: printed(&kinetic_energy),
+            hamiltonian: printed(&hamiltonian),
+            equations: equations.iter().map(printed).collect(),
+            reduced: reduced.iter().map(printed).collect(),
+            left_out,
+        })
     }
 
-    fn with_centre(&self, arena: &mut Arena, notation: &Notation, internal: Formula) -> Formula {
+    fn with_centre(
+        &self,
+        arena: &mut Arena,
+        notation: &Notation,
+        internal: (Sentence, Vec<Sentence>),
+    ) -> Sentence {
         mixed::hamiltonian(arena, notation, internal, &self.motion.masses, self.potential, self.forces)
     }
 
-    fn with_forces(&self, arena: &mut Arena, notation: &Notation, mut list: Vec<Formula>) -> Vec<Formula> {
+    fn with_forces(&self, arena: &mut Arena, notation: &Notation, mut list: Vec<Sentence>) -> Vec<Sentence> {
         list.extend(self.forces.formulas(arena, notation));
         list
     }
 
     /// The equations of a factorised mass matrix in the parts of the energy, or component by component where they are not
     /// proved to be those.
-    fn in_parts(&self, arena: &mut Arena, notation: &Notation, chart: &Chart) -> Option<Vec<Formula>> {
+    fn in_parts(&self, arena: &mut Arena, notation: &Notation, chart: &Chart) -> Option<Vec<Sentence>> {
         let motion = self.motion;
         let own = motion.chart(arena, true);
         let loads = motion.loads(arena, &own)?;

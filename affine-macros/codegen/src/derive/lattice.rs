@@ -77,7 +77,9 @@ pub(super) fn two_polar(
     let lattice = Lattice::of(arena, h, unitary);
     let mut equations = lattice.equations(arena, h);
     let keeps_volume = h.constraint.is_some();
-    let formulas = two_polar::formulas(arena, notation, &equations, potential, keeps_volume);
+    let (hamiltonian, balance) = two_polar::formulas(arena, notation, &equations, potential, keeps_volume);
+    let printed = |sentence| notation.printed(arena, sentence);
+    let formulas = (printed(&hamiltonian), balance.iter().map(printed).collect());
     let mut on_axes = potential.map(|u| u.on_axes(arena, &lattice));
     if let Some(on_axes) = on_axes.as_mut().filter(|_| keeps_volume) {
         on_axes.keep_volume();

@@ -90,19 +90,6 @@ impl Constraint {
         }
     }
 
-    /// `P` as a formula, in text and LaTeX.
-    #[must_use]
-    pub fn projection(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Isochoric => ("P X = X - tr(X)/n 1", "P X = X - \\tfrac{1}{n}\\operatorname{tr}(X)\\,1"),
-            Self::Rigid => ("P X = (X - X^T)/2", "P X = \\tfrac{1}{2}(X - X^T)"),
-            Self::Conformal => (
-                "P X = (X - X^T)/2 + tr(X)/n 1",
-                "P X = \\tfrac{1}{2}(X - X^T) + \\tfrac{1}{n}\\operatorname{tr}(X)\\,1",
-            ),
-        }
-    }
-
     /// Are affine velocities and their momenta traceless?
     #[must_use]
     pub fn is_traceless(self) -> bool {

@@ -22,8 +22,7 @@ use super::term::{Frame, Term, TermKind};
 pub use centre::Masses;
 pub use factorisation::{Factorisation, SymmetricBlock};
 pub use formulas::{
-    ForceNames, centre_equations, confined_equations, confined_hamiltonian, hamiltonian, internal_equations,
-    internal_hamiltonian,
+    ForceNames, centre_equations, confined_equations, hamiltonian, internal_energy, internal_equations,
 };
 pub use internal::{Internal, Legendre};
 pub use laws::laws_hold;

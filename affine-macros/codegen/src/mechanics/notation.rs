@@ -4,12 +4,18 @@
 //! derivation names besides is a power of such a symbol, an entry of a matrix or of its inverse, or what a field
 //! computes.
 
+mod as_latex;
+mod as_text;
 mod field;
 mod formula;
 mod latex;
+mod letter;
+pub(super) mod letters;
 mod matrix;
 mod matrix_name;
 mod names;
+mod sentence;
+mod sum;
 mod symbols;
 
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -24,9 +30,13 @@ use super::metrics::{Metrics, Rebased, Source};
 
 pub(super) use field::index as field_index;
 pub use formula::Formula;
-pub(super) use matrix_name::MatrixName;
+pub use letter::Letter;
+pub use matrix_name::MatrixName;
 pub use names::Notation;
-pub use symbols::{FUNCTIONS, Letter, SYMBOLS, is_symbol};
+pub use sentence::{Exponent, Sentence, Summand};
+pub(super) use sentence::{commutator, product, rate, slope, trace};
+pub(super) use sum::Sum;
+pub use symbols::{FUNCTIONS, SYMBOLS, is_symbol};
 
 /// What the formulas of a model describe.
 pub struct Described<'a> {
@@ -78,11 +88,7 @@ impl<'a> Notation<'a> {
             self.name_inverse(block, &name, &(0..block.form.len()).collect::<Vec<_>>());
             let rows: Vec<Vec<Expr>> =
                 block.form.iter().map(|row| row.iter().map(|p| p.expression(arena)).collect()).collect();
-            let Formula { text, latex } = self.literal(arena, &rows);
-            let definition = Formula {
-                text: format!("{} = {text}", name.text),
-                latex: format!("{} = {latex}", name.latex),
-            };
+            let definition = self.literal(arena, &rows).of(Sentence::Matrix(name));
             self.blocks.push((block.inverse.concat(), definition));
         }
     }
@@ -100,7 +106,7 @@ impl<'a> Notation<'a> {
         &self,
         arena: &mut Arena,
         polynomials: impl Iterator<Item = &'p Polynomial>,
-    ) -> Vec<Formula> {
+    ) -> Vec<Sentence> {
         let mut used = FxHashSet::default();
         for polynomial in polynomials {
             polynomial.any_symbol(arena, &mut |symbol| {
@@ -108,22 +114,21 @@ impl<'a> Notation<'a> {
                 false
             });
         }
-        let of_block = |(entries, definition): &(Vec<Expr>, Formula)| {
+        let of_block = |(entries, definition): &(Vec<Expr>, Sentence)| {
             entries.iter().any(|entry| used.contains(entry)).then(|| definition.clone())
         };
-        let mut list: Vec<Formula> = self.blocks.iter().filter_map(of_block).collect();
+        let mut list: Vec<Sentence> = self.blocks.iter().filter_map(of_block).collect();
         let Some(Metrics::Given([space, body])) = self.metrics else { return list };
         for matrix in self.rebased {
             let (letter, metric) = match matrix.source {
-                Source::SpaceInverse => ("A", space),
-                Source::Body => ("B", body),
+                Source::SpaceInverse => (letters::SPACE_FACTOR, space),
+                Source::Body => (letters::BODY_FACTOR, body),
                 Source::Form(..) => continue,
             };
             let is_entry = |symbol: &Expr| matches!(arena.as_symbol(*symbol), Some(Symbol::Prepared(number, ..)) if *number == matrix.number);
             if used.iter().any(is_entry) {
-                let Formula { text, latex } = self.literal(arena, metric);
-                let text = format!("{letter}^T {letter} = {text}");
-                list.push(Formula { text, latex: format!("{letter}^T {letter} = {latex}") });
+                let square = product([Sentence::from(letter).transposed(), letter.into()]);
+                list.push(self.literal(arena, metric).of(square));
             }
         }
         list

@@ -11,7 +11,8 @@ pub fn component(arena: &mut Arena, notation: &Notation, entries: &[Entry]) -> S
     for entry in entries {
         sum.add_scaled(&written(arena, entry), &Rational::from(entry.factor));
     }
-    notation.polynomial(arena, &sum).text
+    let sentence = notation.polynomial(arena, &sum);
+    notation.text(arena, &sentence)
 }
 
 /// The entry as formulas write it: of angular momenta of which no entry has a symbol, by the products and entries that it is

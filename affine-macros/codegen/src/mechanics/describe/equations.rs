@@ -3,7 +3,7 @@
 use super::hamiltonian::trace_coefficient;
 use super::inertia::inertial;
 use super::known_forms::{Shape, known_forms};
-use super::{Formula, Notation, Sum, Summand, momentum_names, velocity_names};
+use super::{Notation, Sentence, Sum, Summand, momentum, velocity};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -12,6 +12,7 @@ use crate::mechanics::forces::Forces;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::Kinetics;
+use crate::mechanics::notation::{Letter, letters, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
@@ -23,7 +24,7 @@ pub fn equations(
     (chart, full): (&Chart, &Polynomial),
     potential: Option<&Potential>,
     forces: &Forces,
-) -> Vec<Formula> {
+) -> Vec<Sentence> {
     let kinetics = Kinetics::polynomial(arena, chart, full);
     // A tensor's velocity stays a symbol: written out, nothing in its commutators cancels.
     let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
@@ -58,7 +59,7 @@ pub fn equations(
                 if matches!(group.coordinates[0], Coordinate::M(..)) && h.constraint.is_some() {
                     (value, projects) = under_constraint(value, shape);
                 }
-                list.push(value.of(group.left.0, group.left.1));
+                list.push(value.of(rate(group.of)));
             }
             None => {
                 list.extend(group.rates(arena, notation, chart, &derived, force));
@@ -66,38 +67,33 @@ pub fn equations(
             }
         }
     }
-    for (name, name_latex, definition) in names.into_iter().flatten() {
-        list.push(definition.of(name, name_latex));
-    }
+    list.extend(names.into_iter().flatten().map(|(name, definition)| definition.of(name)));
     list.extend(notation.definitions(arena, written.iter()));
     list.extend(forces.formulas(arena, notation));
-    let projection = h.constraint.filter(|_| projects).map(Constraint::projection);
-    list.extend(projection.map(|(text, latex)| Formula { text: text.to_owned(), latex: latex.to_owned() }));
+    list.extend(h.constraint.filter(|_| projects).map(projection));
     list
 }
 
 /// Coordinates that one matrix or vector equation is for.
 struct Group {
-    /// Their rate, in text and LaTeX.
-    left: (&'static str, &'static str),
+    /// What they are the components of.
+    of: Sentence,
     coordinates: Vec<Coordinate>,
 }
 
 /// The groups of a chart that are not empty.
 fn groups(chart: &Chart) -> Vec<Group> {
-    let (_, _, rate, rate_latex) = momentum_names(chart.momentum);
     let linear = match chart.linear {
-        Some(Linear::Body) => ("dp_hat/dt", "\\dot{\\hat p}"),
-        _ => ("dp/dt", "\\dot p"),
+        Some(Linear::Body) => letters::COMOVING_LINEAR_MOMENTUM,
+        _ => letters::LINEAR_MOMENTUM,
     };
-    let all = [
-        (("dx/dt", "\\dot x"), (0..chart.x.len()).map(Coordinate::X).collect()),
-        (("dphi/dt", "\\dot\\varphi"), pairs(chart.dim, Coordinate::Phi)),
-        (linear, (0..chart.p.len()).map(Coordinate::P).collect()),
-        ((rate, rate_latex), pairs(chart.dim, Coordinate::M)),
+    let all: [(Sentence, Vec<Coordinate>); 4] = [
+        (letters::CENTRE.into(), (0..chart.x.len()).map(Coordinate::X).collect()),
+        (letters::PLACEMENT.into(), pairs(chart.dim, Coordinate::Phi)),
+        (linear.into(), (0..chart.p.len()).map(Coordinate::P).collect()),
+        (momentum(chart.momentum), pairs(chart.dim, Coordinate::M)),
     ];
-    let group =
-        |(left, coordinates): ((&'static str, &'static str), Vec<Coordinate>)| Group { left, coordinates };
+    let group = |(of, coordinates)| Group { of, coordinates };
     all.map(group).into_iter().filter(|group| !group.coordinates.is_empty()).collect()
 }
 
@@ -110,54 +106,46 @@ impl Group {
         chart: &Chart,
         derived: &[Polynomial],
         force: Option<&ForceName>,
-    ) -> Vec<Formula> {
+    ) -> Vec<Sentence> {
         let mut list = Vec::new();
-        for (z, rate) in self.coordinates.iter().zip(derived) {
-            let left = notation.formula(arena, chart.symbol(*z));
-            let Formula { text, latex } = notation.polynomial(arena, rate);
+        for (z, derived) in self.coordinates.iter().zip(derived) {
             let index = match z {
                 Coordinate::M(a, b) | Coordinate::Phi(a, b) => format!("{}{}", a + 1, b + 1),
                 Coordinate::X(i) | Coordinate::P(i) => format!("{}", i + 1),
                 Coordinate::Carried(_) => String::new(),
             };
-            let (text, latex) = match force {
-                None => (text, latex),
-                Some((name, name_latex, _)) => {
-                    (format!("{text} + {name}_{index}"), format!("{latex} + {name_latex}_{{{index}}}"))
-                }
-            };
-            let right = Formula { text, latex };
-            list.push(right.of(&format!("d{}/dt", left.text), &format!("\\dot{{{}}}", left.latex)));
+            let mut sum = Sum::default();
+            sum.push(Summand::plus(notation.polynomial(arena, derived)));
+            sum.extend(force.map(|(name, _)| Summand::plus(Sentence::Component(*name, index))));
+            list.push(sum.of(rate(notation.scalar(arena, chart.symbol(*z)))));
         }
         list
     }
 }
 
 /// The rate of a group with the force by name.
-fn with_force((kinetic, shape): (Formula, Shape), force: Option<&ForceName>) -> (Formula, Shape) {
-    let Some((name, name_latex, _)) = force else { return (kinetic, shape) };
-    let with = |kinetic: String, force: &str| match shape {
-        Shape::Zero => force.to_owned(),
-        Shape::Commutator | Shape::Other => format!("{kinetic} + {force}"),
-    };
-    (Formula { text: with(kinetic.text, name), latex: with(kinetic.latex, name_latex) }, Shape::Other)
+fn with_force((kinetic, shape): (Sentence, Shape), force: Option<&ForceName>) -> (Sentence, Shape) {
+    let Some((name, _)) = force else { return (kinetic, shape) };
+    let mut sum = Sum::default();
+    match shape {
+        Shape::Zero => {}
+        Shape::Commutator | Shape::Other => sum.push(Summand::plus(kinetic)),
+    }
+    sum.push(Summand::plus(*name));
+    (sum.value(), Shape::Other)
 }
 
 /// What a constraint makes of the rate of the affine momentum, and whether that is a projection.
-fn under_constraint(rate: Formula, shape: Shape) -> (Formula, bool) {
-    let Formula { text, latex } = rate;
+fn under_constraint(rate: Sentence, shape: Shape) -> (Sentence, bool) {
     match shape {
         // [X, O] of a momentum that is projected and a velocity in the algebra is projected already.
-        Shape::Zero | Shape::Commutator => (Formula { text, latex }, false),
-        Shape::Other => {
-            let latex = format!("P\\left({latex}\\right)");
-            (Formula { text: format!("P({text})"), latex }, true)
-        }
+        Shape::Zero | Shape::Commutator => (rate, false),
+        Shape::Other => (Sentence::Applied(letters::PROJECTION, vec![rate]), true),
     }
 }
 
-/// Name in text and LaTeX, and definition, of the generalised forces on the linear and the affine momentum.
-type ForceName = (&'static str, &'static str, Formula);
+/// Name and definition of the generalised forces on the linear and the affine momentum.
+type ForceName = (Letter, Sentence);
 
 fn force_names(
     arena: &mut Arena,
@@ -167,35 +155,37 @@ fn force_names(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> [Option<ForceName>; 2] {
+    let placement = || Sentence::from(letters::PLACEMENT);
+    let (pull, push) = (
+        slope(letters::POTENTIAL, letters::CENTRE),
+        slope(letters::POTENTIAL, letters::PLACEMENT).transposed(),
+    );
     let (linear, of_linear) = match chart.linear {
-        Some(Linear::Body) => (("F_hat", "\\hat F"), ("phi^T dU/dx", "\\varphi^T \\partial U/\\partial x")),
-        _ => (("F", "F"), ("dU/dx", "\\partial U/\\partial x")),
+        Some(Linear::Body) => (letters::COMOVING_FORCE, product([placement().transposed(), pull])),
+        _ => (letters::FORCE, pull),
     };
     let (affine, of_affine) = match chart.momentum {
-        Momentum::Body => {
-            (("Q_hat", "\\hat Q"), ("(dU/dphi)^T phi", "(\\partial U/\\partial\\varphi)^T \\varphi"))
-        }
-        Momentum::Space | Momentum::Total => {
-            (("Q", "Q"), ("phi (dU/dphi)^T", "\\varphi (\\partial U/\\partial\\varphi)^T"))
-        }
-        Momentum::Canonical => (("N", "N"), ("(dU/dphi)^T", "(\\partial U/\\partial\\varphi)^T")),
+        Momentum::Body => (letters::COMOVING_AFFINE_FORCE, product([push, placement()])),
+        Momentum::Space | Momentum::Total => (letters::AFFINE_FORCE, product([placement(), push])),
+        Momentum::Canonical => (letters::CANONICAL_FORCE, push),
     };
     let moves = potential.is_some_and(Potential::moves_the_centre);
     let (mut on_linear, mut on_affine) = (Vec::new(), Vec::new());
-    on_linear.extend(moves.then(|| Summand::minus(of_linear.0, of_linear.1)));
+    on_linear.extend(moves.then(|| Summand::minus(of_linear)));
     if h.weight.is_some() {
         let share = &Rational::from(2) * &Rational::one_over(h.dim);
         let mut sum = Sum::default();
-        sum.add(arena, notation, &Polynomial::constant(share), ("T_int 1", "T_{\\mathrm{int}}\\,1"));
-        let Formula { text, latex } = sum.value();
-        on_affine.push(Summand::plus(text, latex));
+        let energy = product([letters::INTERNAL_ENERGY.into(), Sentence::One]);
+        sum.add(arena, notation, &Polynomial::constant(share), energy);
+        on_affine.push(Summand::plus(sum.value()));
     }
-    on_affine.extend(potential.map(|_| Summand::minus(of_affine.0, of_affine.1)));
+    on_affine.extend(potential.map(|_| Summand::minus(of_affine)));
     forces.name_on(chart, &mut on_linear, &mut on_affine);
-    let joined = |(name, latex): (&'static str, &'static str), parts: Vec<Summand>| {
+    let joined = |name: Letter, parts: Vec<Summand>| {
         let mut sum = Sum::default();
-        sum.extend(&parts);
-        (!parts.is_empty()).then(|| (name, latex, sum.value()))
+        let acts = !parts.is_empty();
+        sum.extend(parts);
+        acts.then(|| (name, sum.value()))
     };
     [joined(linear, on_linear), joined(affine, on_affine)]
 }
@@ -206,30 +196,44 @@ fn affine_velocity(
     notation: &Notation,
     (h, kinetic): (&Hamiltonian, &Kinetic),
     chart: &Chart,
-) -> Formula {
-    let (x, x_latex, ..) = momentum_names(chart.momentum);
-    let (omega, omega_latex) = velocity_names(chart.momentum);
+) -> Sentence {
+    let (x, omega) = (|| momentum(chart.momentum), velocity(chart.momentum));
     let Some(iso) = &h.isotropic else {
         if let Some(inertial) = inertial(arena, notation, h, kinetic) {
             let [left, right] = inertial.velocity;
-            return right.of(&left.text, &left.latex);
+            return right.of(left);
         }
-        return Formula {
-            text: format!("{omega} = (dH/d{x})^T"),
-            latex: format!("{omega_latex} = (\\partial H/\\partial {x_latex})^T"),
-        };
+        return slope(letters::HAMILTONIAN, x()).transposed().of(omega);
     };
     let mut sum = Sum::default();
-    let mut add = |coefficient: &Polynomial, text: &str, latex: &str| {
-        sum.add(arena, notation, coefficient, (text, latex));
+    let mut add = |coefficient: &Polynomial, body: Sentence| sum.add(arena, notation, coefficient, body);
+    add(&iso.casimir2, x());
+    add(&trace_coefficient(h, iso), product([trace(x()), Sentence::One]));
+    let mut skew = Sum::default();
+    skew.extend([Summand::plus(x()), Summand::minus(x().transposed())]);
+    add(&iso.skew.scaled(&Rational::MINUS_ONE), skew.value());
+    add(&iso.casimir3, x().power(2));
+    sum.of(omega)
+}
+
+/// What the projection on the Lie algebra of a constraint is.
+pub(in crate::mechanics) fn projection(group: Constraint) -> Sentence {
+    let x = || Sentence::from(letters::SPIN_IN_THE_BODY);
+    let mean = || Summand::plus(product([Sentence::OverDimension(Box::new(trace(x()))), Sentence::One]));
+    let mut sum = Sum::default();
+    let skew = || {
+        let mut skew = Sum::default();
+        skew.extend([Summand::plus(x()), Summand::minus(x().transposed())]);
+        Summand::plus(Sentence::Over(Box::new(skew.value()), 2))
     };
-    add(&iso.casimir2, x, x_latex);
-    let trace = (format!("tr({x}) 1"), format!("\\operatorname{{tr}}({x_latex})\\,1"));
-    add(&trace_coefficient(h, iso), &trace.0, &trace.1);
-    let skew = (format!("({x} - {x}^T)"), format!("({x_latex} - {x_latex}^T)"));
-    add(&iso.skew.scaled(&Rational::MINUS_ONE), &skew.0, &skew.1);
-    add(&iso.casimir3, &format!("{x}^2"), &format!("{x_latex}^2"));
-    sum.of(omega, omega_latex)
+    match group {
+        Constraint::Isochoric => {
+            sum.extend([Summand::plus(x()), Summand { negative: true, ..mean() }]);
+        }
+        Constraint::Rigid => sum.push(skew()),
+        Constraint::Conformal => sum.extend([skew(), mean()]),
+    }
+    sum.of(product([letters::PROJECTION.into(), x()]))
 }
 
 fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {

@@ -4,10 +4,10 @@ use crate::algebra::{Arena, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::custom::{By, Custom, On, Role};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Formula, Notation, field_index};
-use crate::mechanics::term::Frame;
+use crate::mechanics::notation::{Notation, field_index, letters, product, rate, slope, trace};
+use crate::symbol::Quantity;
 
-use super::{Sum, Summand, quadratic_terms};
+use super::{Sentence, Sum, Summand, centre_velocity, quadratic_terms};
 
 impl Forces {
     /// Adds the names of the forces on the linear and the affine momentum of a chart, in text and LaTeX.
@@ -24,79 +24,73 @@ impl Forces {
         }
         let Some(dissipation) = &self.dissipation else { return };
         if dissipation.slows_the_centre() {
-            linear.push(match chart.linear {
-                Some(Linear::Body) => {
-                    Summand::minus("phi^T dR/d(dx/dt)", "\\varphi^T \\partial R/\\partial\\dot x")
-                }
-                _ => Summand::minus("dR/d(dx/dt)", "\\partial R/\\partial\\dot x"),
-            });
+            let drag = slope(letters::RAYLEIGH, rate(letters::CENTRE));
+            linear.push(Summand::minus(match chart.linear {
+                Some(Linear::Body) => product([placement().transposed(), drag]),
+                _ => drag,
+            }));
         }
         if !dissipation.parts.is_empty() {
-            let (text, latex) = match chart.momentum {
-                Momentum::Body => ("(dR/dOmega_hat)^T", "(\\partial R/\\partial\\hat\\Omega)^T"),
-                Momentum::Space | Momentum::Total => ("(dR/dOmega)^T", "(\\partial R/\\partial\\Omega)^T"),
-                Momentum::Canonical => ("(dR/d(dphi/dt))^T", "(\\partial R/\\partial\\dot\\varphi)^T"),
+            let velocity = match chart.momentum {
+                Momentum::Body => letters::COMOVING_AFFINE_VELOCITY.into(),
+                Momentum::Space | Momentum::Total => letters::AFFINE_VELOCITY.into(),
+                Momentum::Canonical => rate(letters::PLACEMENT),
             };
-            affine.push(Summand::minus(text, latex));
+            affine.push(Summand::minus(slope(letters::RAYLEIGH, velocity).transposed()));
         }
     }
 
     /// What defines them, and the balance of energy.
-    pub fn formulas(&self, arena: &mut Arena, notation: &Notation) -> Vec<Formula> {
+    pub fn formulas(&self, arena: &mut Arena, notation: &Notation) -> Vec<Sentence> {
         let mut list = Vec::new();
-        let mut power: Vec<(String, String)> = Vec::new();
+        let mut power: Vec<Summand> = Vec::new();
         if let Some(dissipation) = &self.dissipation {
             let mut sum = Sum::default();
             for part in &dissipation.parts {
                 quadratic_terms(arena, notation, &mut sum, part.form.frame, &part.form.terms);
             }
-            let half = Rational::HALF;
             for (frame, coefficient) in &dissipation.centre {
-                let body = match frame {
-                    Frame::Body => ("|phi^-1 dx/dt|^2", "|\\varphi^{-1}\\dot x|^2"),
-                    _ => ("|dx/dt|^2", "|\\dot x|^2"),
-                };
-                sum.add(arena, notation, &coefficient.scaled(&half), body);
+                let square = centre_velocity(*frame).length_squared();
+                sum.add(arena, notation, &coefficient.scaled(&Rational::HALF), square);
             }
             let terms = dissipation.parts.iter().flat_map(|part| &part.form.terms);
-            list.push(sum.of("R", "R").with(notation.matrices_in(terms)));
-            power.push(("-2 R".to_owned(), "-2 R".to_owned()));
+            list.push(sum.of(letters::RAYLEIGH).with(notation.matrices_in(terms)));
+            let two = arena.constant(Rational::from(2));
+            power.push(Summand::minus(Sentence::Multiple(two, Box::new(letters::RAYLEIGH.into()))));
         }
         for custom in &self.customs {
             let Role::Force { on, gyroscopic: false, .. } = custom.role else { continue };
-            let (name, latex) = symbols(custom);
-            power.push(match on {
-                On::Space => (format!("tr({name} Omega)"), format!("\\operatorname{{tr}}({latex} \\Omega)")),
-                On::Body => {
-                    (format!("tr({name} Omega_hat)"), format!("\\operatorname{{tr}}({latex} \\hat\\Omega)"))
-                }
-                On::Centre => (format!("{name}.dx/dt"), format!("{latex}\\cdot\\dot x")),
-            });
+            power.push(Summand::plus(match on {
+                On::Space => trace(product([symbol(custom), letters::AFFINE_VELOCITY.into()])),
+                On::Body => trace(product([symbol(custom), letters::COMOVING_AFFINE_VELOCITY.into()])),
+                On::Centre => Sentence::Inner(Box::new([symbol(custom), rate(letters::CENTRE)])),
+            }));
         }
         if self.driven {
-            power.push(("dU/dt at rest".to_owned(), "\\partial_t U".to_owned()));
+            power.push(Summand::plus(Sentence::SlopeAtRest(letters::POTENTIAL)));
         }
         if !power.is_empty() {
-            let (texts, formulas): (Vec<String>, Vec<String>) = power.into_iter().unzip();
-            list.push(Formula {
-                text: format!("dH/dt = {}", texts.join(" + ")),
-                latex: format!("\\dot H = {}", formulas.join(" + ")),
-            });
+            let mut sum = Sum::default();
+            sum.extend(power);
+            list.push(sum.of(rate(letters::HAMILTONIAN)));
         }
         list
     }
 
     /// What of the potentials that are summands of `H` has a formula.
-    pub(in crate::mechanics) fn definitions(&self, arena: &mut Arena, notation: &Notation) -> Vec<Formula> {
+    pub(in crate::mechanics) fn definitions(&self, arena: &mut Arena, notation: &Notation) -> Vec<Sentence> {
         let mut list = Vec::new();
         for custom in &self.customs {
             if let By::SelfGravity(strength) = custom.by {
                 let unit = By::SelfGravity(strength).unit(arena);
-                let integral = ("R_F(Q_1^2, Q_2^2, Q_3^2)", "R_F(Q_1^2, Q_2^2, Q_3^2)");
+                let stretch = |a: usize| {
+                    let stretch = arena.symbol(Quantity::Stretches.at([a]));
+                    notation.scalar(arena, stretch).power(2)
+                };
+                let integral = Sentence::Applied(letters::CARLSON_RF, [1, 2, 3].map(stretch).into());
                 let mut sum = Sum::default();
                 sum.add(arena, notation, &unit, integral);
-                let (text, latex) = symbols(custom);
-                list.push(sum.of(&text, &latex));
+                list.push(sum.of(symbol(custom)));
             }
         }
         list
@@ -104,75 +98,58 @@ impl Forces {
 
     /// The potentials that no formula in base functions gives, as summands of `H`.
     #[must_use]
-    pub fn potentials(&self) -> Vec<Formula> {
+    pub fn potentials(&self) -> Vec<Sentence> {
         let is_potential = |custom: &&Custom| matches!(custom.role, Role::Potential { .. });
-        let formula = |custom: &Custom| {
-            let (text, latex) = symbols(custom);
-            Formula { text, latex }
-        };
-        self.customs.iter().filter(is_potential).map(formula).collect()
+        self.customs.iter().filter(is_potential).map(symbol).collect()
     }
 }
 
-/// Names of what is computed, in text and LaTeX.
-fn symbols(custom: &Custom) -> (String, String) {
+/// What is computed.
+fn symbol(custom: &Custom) -> Sentence {
     if let By::SelfGravity(_) = custom.by {
-        return ("U_g".to_owned(), "U_{\\mathrm{g}}".to_owned());
+        return letters::SELF_GRAVITY.into();
     }
-    let (stem, latex) = match custom.role {
-        Role::Potential { .. } => ("U", "U"),
-        Role::Force { on: On::Space, .. } => ("Q", "Q"),
-        Role::Force { on: On::Body, .. } => ("Q_hat", "\\hat Q"),
-        Role::Force { on: On::Centre, .. } => ("F", "F"),
+    let letter = match custom.role {
+        Role::Potential { .. } => letters::POTENTIAL,
+        Role::Force { on: On::Space, .. } => letters::AFFINE_FORCE,
+        Role::Force { on: On::Body, .. } => letters::COMOVING_AFFINE_FORCE,
+        Role::Force { on: On::Centre, .. } => letters::FORCE,
     };
-    let [name, index] = field_index(&custom.name);
-    (format!("{stem}[{name}]"), format!("{latex}_{{{index}}}"))
+    Sentence::OfField(letter, field_index(&custom.name))
+}
+
+fn placement() -> Sentence {
+    letters::PLACEMENT.into()
 }
 
 /// What a field adds to the forces on the linear and the affine momentum of a chart.
 fn custom_names(custom: &Custom, chart: &Chart) -> [Option<Summand>; 2] {
-    let (name, latex) = symbols(custom);
-    let around = |before: (&str, &str), after: (&str, &str)| {
-        let text = format!("{}{name}{}", before.0, after.0);
-        Some(Summand::plus(text, format!("{}{latex}{}", before.1, after.1)))
-    };
-    let (phi, inverse, none) = ((" phi", " \\varphi"), ("phi^-1 ", "\\varphi^{-1} "), ("", ""));
-    let slope = |left: (&str, &str), right: (&str, &str)| {
-        let text = format!("{}(d{name}/dphi)^T{}", left.0, right.0);
-        Some(Summand::minus(text, format!("{}(\\partial {latex}/\\partial\\varphi)^T{}", left.1, right.1)))
-    };
-    match (custom.role, chart.momentum) {
-        (Role::Force { on: On::Centre, .. }, _) => {
-            let force = match chart.linear {
-                Some(Linear::Body) => around(("phi^T ", "\\varphi^T "), none),
-                _ => around(none, none),
+    let comoving = chart.linear == Some(Linear::Body);
+    // Forces on `p_hat` are those on `p`, pulled back.
+    let pulled = |force: Sentence| if comoving { product([placement().transposed(), force]) } else { force };
+    let force = symbol(custom);
+    let inverse = || placement().inverse();
+    match custom.role {
+        Role::Force { on: On::Centre, .. } => [Some(Summand::plus(pulled(force))), None],
+        Role::Force { on, .. } => {
+            let force = match (on, chart.momentum) {
+                (On::Space, Momentum::Body) => product([inverse(), force, placement()]),
+                (On::Space, Momentum::Canonical) => product([inverse(), force]),
+                (On::Body, Momentum::Space | Momentum::Total) => product([placement(), force, inverse()]),
+                (On::Body, Momentum::Canonical) => product([force, inverse()]),
+                _ => force,
             };
-            [force, None]
+            [None, Some(Summand::plus(force))]
         }
-        (Role::Force { on: On::Space, .. }, Momentum::Body) => [None, around(inverse, phi)],
-        (Role::Force { on: On::Space, .. }, Momentum::Canonical) => [None, around(inverse, none)],
-        (Role::Force { on: On::Body, .. }, Momentum::Space | Momentum::Total) => {
-            [None, around(("phi ", "\\varphi "), (" phi^-1", " \\varphi^{-1}"))]
-        }
-        (Role::Force { on: On::Body, .. }, Momentum::Canonical) => {
-            [None, around(none, (" phi^-1", " \\varphi^{-1}"))]
-        }
-        (Role::Force { .. }, _) => [None, around(none, none)],
-        (Role::Potential { moves, .. }, momentum) => {
-            let pull = match chart.linear {
-                Some(Linear::Body) => ("phi^T ", "\\varphi^T "),
-                _ => none,
+        Role::Potential { moves, .. } => {
+            let on_centre = moves.then(|| Summand::minus(pulled(slope(force.clone(), letters::CENTRE))));
+            let push = slope(force, letters::PLACEMENT).transposed();
+            let on_affine = match chart.momentum {
+                Momentum::Body => product([push, placement()]),
+                Momentum::Space | Momentum::Total => product([placement(), push]),
+                Momentum::Canonical => push,
             };
-            let on_centre = moves.then(|| {
-                let latex = format!("{}\\partial {latex}/\\partial x", pull.1);
-                Summand::minus(format!("{}d{name}/dx", pull.0), latex)
-            });
-            let on_affine = match momentum {
-                Momentum::Body => slope(none, phi),
-                Momentum::Space | Momentum::Total => slope(("phi ", "\\varphi "), none),
-                Momentum::Canonical => slope(none, none),
-            };
-            [on_centre, on_affine]
+            [on_centre, Some(Summand::minus(on_affine))]
         }
     }
 }

@@ -1,19 +1,19 @@
 //! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
 
-use super::{Formula, Notation, momentum_names, velocity_names};
+use super::{Notation, Sentence, momentum, velocity};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::notation::MatrixName;
+use crate::mechanics::notation::{MatrixName, product, trace};
 use crate::mechanics::term::Coefficient;
 
 /// Energy and velocity through the inverse of a matrix.
 pub(super) struct Inertial {
     /// `1/2 tr(X^T J^-1 X)`.
-    pub(super) energy: Formula,
+    pub(super) energy: Sentence,
     /// `O = X^T J^-1`, both sides.
-    pub(super) velocity: [Formula; 2],
+    pub(super) velocity: [Sentence; 2],
     /// Entry by entry, since the matrix is one of pairs of indices?
     on_pairs: bool,
 }
@@ -44,7 +44,7 @@ pub(super) fn inertial(
     let inverse = if tensor { whole_inverse(h) } else { inverse_on_rows(h)? };
     is_inverse(arena, notation, (&name, &matrix.0), &inverse).then(|| {
         let momentum = Momentum::of(h.frame);
-        if tensor { on_pairs(&name.inverse(), momentum) } else { on_rows(&name.inverse(), momentum) }
+        if tensor { on_pairs(arena, &name, momentum) } else { on_rows(arena, &name, momentum) }
     })
 }
 
@@ -110,38 +110,30 @@ fn is_inverse(
 }
 
 /// `1/2 tr(X^T J^-1 X)` and `O = X^T J^-1`.
-fn on_rows(inverse: &MatrixName, momentum: Momentum) -> Inertial {
-    let MatrixName { text: j, latex: j_latex, .. } = inverse;
-    let (x, x_latex, ..) = momentum_names(momentum);
-    let (o, o_latex) = velocity_names(momentum);
+fn on_rows(arena: &mut Arena, j: &MatrixName, of: Momentum) -> Inertial {
+    let inverse = || Sentence::Matrix(j.inverse());
+    let energy = trace(product([momentum(of).transposed(), inverse(), momentum(of)]));
     Inertial {
-        energy: Formula {
-            text: format!("1/2 tr({x}^T {j} {x})"),
-            latex: format!("\\frac{{1}}{{2}}\\, \\operatorname{{tr}}({x_latex}^T {j_latex} {x_latex})"),
-        },
-        velocity: [
-            Formula { text: o.to_owned(), latex: o_latex.to_owned() },
-            Formula { text: format!("{x}^T {j}"), latex: format!("{x_latex}^T {j_latex}") },
-        ],
+        energy: half(arena, energy),
+        velocity: [velocity(of).into(), product([momentum(of).transposed(), inverse()])],
         on_pairs: false,
     }
 }
 
 /// `1/2 K^-1[(A,B),(C,D)] X[B,A] X[D,C]` and `O[A,B] = K^-1[(A,B),(C,D)] X[D,C]`.
-fn on_pairs(inverse: &MatrixName, momentum: Momentum) -> Inertial {
-    let k = format!("{}[(A,B),(C,D)]", inverse.text);
-    let k_latex = format!("{}_{{(AB)(CD)}}", inverse.indexed());
-    let (x, x_latex, ..) = momentum_names(momentum);
-    let (o, o_latex) = velocity_names(momentum);
+fn on_pairs(arena: &mut Arena, k: &MatrixName, of: Momentum) -> Inertial {
+    let inverse = || Sentence::Matrix(k.inverse()).entry(&["AB", "CD"]);
+    let energy = product([inverse(), momentum(of).entry(&["BA"]), momentum(of).entry(&["DC"])]);
     Inertial {
-        energy: Formula {
-            text: format!("1/2 {k} {x}[B,A] {x}[D,C]"),
-            latex: format!("\\frac{{1}}{{2}}\\, {k_latex}\\,{x_latex}_{{BA}}{x_latex}_{{DC}}"),
-        },
+        energy: half(arena, energy),
         velocity: [
-            Formula { text: format!("{o}[A,B]"), latex: format!("{o_latex}_{{AB}}") },
-            Formula { text: format!("{k} {x}[D,C]"), latex: format!("{k_latex}\\,{x_latex}_{{DC}}") },
+            Sentence::from(velocity(of)).entry(&["AB"]),
+            product([inverse(), momentum(of).entry(&["DC"])]),
         ],
         on_pairs: true,
     }
+}
+
+fn half(arena: &mut Arena, of: Sentence) -> Sentence {
+    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }

@@ -1,15 +1,17 @@
 //! Matrix forms that the derived components are compared with.
 
-use super::{Formula, Notation, Sum, momentum_names, velocity_names};
-use crate::algebra::ring::{Square, difference, outer, product, times, transpose};
+use super::hamiltonian::pulled_back_momentum;
+use super::{Notation, Sentence, Sum, Summand, momentum, velocity};
+use crate::algebra::ring::{self, Square, difference, outer, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::notation::{commutator, letters, product, slope};
 use crate::mechanics::term::Frame;
 
 /// A matrix or vector formula with its components.
 pub(super) struct Known {
-    pub(super) value: Formula,
+    pub(super) value: Sentence,
     pub(super) shape: Shape,
     pub(super) components: Vec<Polynomial>,
 }
@@ -37,26 +39,23 @@ pub(super) fn known_forms(
     };
     let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
     let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
-    let (x, x_latex, ..) = momentum_names(chart.momentum);
-    let (omega, omega_latex) = velocity_names(chart.momentum);
+    let commutators = Commutators::of(chart);
+    let omega = || Sentence::from(velocity(chart.momentum));
     let mut known = Vec::new();
-    let mut add = |shape: Shape, text: String, latex: String, components: Vec<Polynomial>| {
-        known.push(Known { value: Formula { text, latex }, shape, components });
+    let mut add = |shape: Shape, value: Sentence, components: Vec<Polynomial>| {
+        known.push(Known { value, shape, components });
     };
-    add(Shape::Zero, "0".into(), "0".into(), vec![Polynomial::zero(); n]);
-    add(Shape::Zero, "0".into(), "0".into(), vec![Polynomial::zero(); n * n]);
-    let [comoving, spatial] = [product(&phi, o), product(o, &phi)].map(|velocity| velocity.concat());
-    add(Shape::Other, format!("phi {omega}"), format!("\\varphi\\,{omega_latex}"), comoving);
-    add(Shape::Other, format!("{omega} phi"), format!("{omega_latex}\\,\\varphi"), spatial);
-    add(Shape::Other, "(dH/dPi)^T".into(), "(\\partial H/\\partial \\Pi)^T".into(), o.concat());
-    let (xo, ox) = (product(&m, o), product(o, &m));
-    let body_commutator = difference(&xo, &ox);
-    let space_commutator = difference(&ox, &xo);
-    let commutator = |a: &str, b: &str| format!("[{a}, {b}]");
-    let body = (commutator(x, omega), commutator(x_latex, omega_latex));
-    add(Shape::Commutator, body.0, body.1, body_commutator.concat());
-    let space = (commutator(omega, x), commutator(omega_latex, x_latex));
-    add(Shape::Commutator, space.0, space.1, space_commutator.concat());
+    add(Shape::Zero, Sum::default().value(), vec![Polynomial::zero(); n]);
+    add(Shape::Zero, Sum::default().value(), vec![Polynomial::zero(); n * n]);
+    let [comoving, spatial] =
+        [ring::product(&phi, o), ring::product(o, &phi)].map(|velocity| velocity.concat());
+    add(Shape::Other, product([letters::PLACEMENT.into(), omega()]), comoving);
+    add(Shape::Other, product([omega(), letters::PLACEMENT.into()]), spatial);
+    let canonical = slope(letters::HAMILTONIAN, letters::CANONICAL_MOMENTUM).transposed();
+    add(Shape::Other, canonical, o.concat());
+    let (xo, ox) = (ring::product(&m, o), ring::product(o, &m));
+    add(Shape::Commutator, commutators.body, difference(&xo, &ox).concat());
+    add(Shape::Commutator, commutators.space, difference(&ox, &xo).concat());
     if let Some((frame, inverse_mass)) = &h.translation {
         known.extend(translation(arena, notation, chart, (*frame, inverse_mass), [&phi, &m, o], &p));
     }
@@ -73,49 +72,60 @@ fn translation(
     p: &[Polynomial],
 ) -> Vec<Known> {
     let n = chart.dim;
-    let (x, x_latex, ..) = momentum_names(chart.momentum);
-    let (omega, omega_latex) = velocity_names(chart.momentum);
     let comoving = chart.linear == Some(Linear::Body);
     let ph: Vec<Polynomial> = if comoving { p.to_vec() } else { times(&transpose(phi), p) };
     let scaled = |v: &[Polynomial]| -> Vec<Polynomial> { v.iter().map(|c| c.mul(inverse_mass)).collect() };
     // rest + coefficient * body
     let mut sum =
-        |rest: (&str, &str), weight: &Polynomial, body: (&str, &str), components: Vec<Polynomial>| {
+        |rest: Option<Sentence>, weight: &Polynomial, body: Sentence, components: Vec<Polynomial>| {
             let mut sum = Sum::default();
-            if !rest.0.is_empty() {
-                sum.push(false, rest.0, rest.1);
-            }
+            sum.extend(rest.map(Summand::plus));
             sum.add(arena, notation, weight, body);
             Known { value: sum.value(), shape: Shape::Other, components }
         };
-    let (one, none) = (Polynomial::constant(Rational::ONE), ("", ""));
+    let one = Polynomial::constant(Rational::ONE);
     let minus = inverse_mass.scaled(&Rational::MINUS_ONE);
-    let phi_p =
-        if comoving { ("phi p_hat", "\\varphi \\hat p") } else { ("phi phi^T p", "\\varphi \\varphi^T p") };
-    let turned = (format!("{omega}^T p_hat"), format!("{omega_latex}^T \\hat p"));
+    let placement = || Sentence::from(letters::PLACEMENT);
+    let spatial = || Sentence::from(letters::LINEAR_MOMENTUM);
+    // p_hat, or phi^T p where p is the momentum of the chart.
+    let pulled = || if comoving { letters::COMOVING_LINEAR_MOMENTUM.into() } else { pulled_back_momentum() };
+    let turned = product([
+        Sentence::from(velocity(chart.momentum)).transposed(),
+        letters::COMOVING_LINEAR_MOMENTUM.into(),
+    ]);
     let mut list = vec![
-        sum(none, inverse_mass, ("p", "p"), scaled(p)),
-        sum(none, inverse_mass, phi_p, scaled(&times(phi, &ph))),
-        sum(none, &one, (&turned.0, &turned.1), times(&transpose(o), p)),
+        sum(None, inverse_mass, spatial(), scaled(p)),
+        sum(None, inverse_mass, product([placement(), pulled()]), scaled(&times(phi, &ph))),
+        sum(None, &one, turned, times(&transpose(o), p)),
     ];
     if frame == Frame::Body {
-        let (xo, ox) = (product(m, o), product(o, m));
-        let in_body = (format!("[{x}, {omega}]"), format!("[{x_latex}, {omega_latex}]"));
-        let in_space = (format!("[{omega}, {x}]"), format!("[{omega_latex}, {x_latex}]"));
-        let thrust = match comoving {
-            true => ("p_hat p_hat^T", "\\hat p \\hat p^T"),
-            false => ("(phi^T p) (phi^T p)^T", "(\\varphi^T p) (\\varphi^T p)^T"),
-        };
+        let (xo, ox) = (ring::product(m, o), ring::product(o, m));
+        let commutators = Commutators::of(chart);
         let zero = vec![vec![Polynomial::zero(); n]; n];
         let body = difference(&difference(&xo, &ox), &outer(&scaled(&ph), &ph));
         let space = difference(&difference(&ox, &xo), &outer(&scaled(&times(phi, &ph)), p));
         let flat = difference(&zero, &outer(&scaled(&ph), p));
-        let spatial = ("phi phi^T p p^T", "\\varphi\\varphi^T p\\,p^T");
+        let thrust = product([pulled(), pulled().transposed()]);
+        let on_flat = product([pulled_back_momentum(), spatial().transposed()]);
+        let on_space = product([placement(), on_flat.clone()]);
         list.extend([
-            sum((&in_body.0, &in_body.1), &minus, thrust, body.concat()),
-            sum((&in_space.0, &in_space.1), &minus, spatial, space.concat()),
-            sum(none, &minus, ("phi^T p p^T", "\\varphi^T p\\,p^T"), flat.concat()),
+            sum(Some(commutators.body), &minus, thrust, body.concat()),
+            sum(Some(commutators.space), &minus, on_space, space.concat()),
+            sum(None, &minus, on_flat, flat.concat()),
         ]);
     }
     list
+}
+
+/// `[X, O]` and `[O, X]` of momentum and velocity.
+struct Commutators {
+    body: Sentence,
+    space: Sentence,
+}
+
+impl Commutators {
+    fn of(chart: &Chart) -> Self {
+        let (x, o) = (momentum(chart.momentum), velocity(chart.momentum));
+        Self { body: commutator(x.clone(), o), space: commutator(o, x) }
+    }
 }

@@ -2,11 +2,12 @@
 
 use rustc_hash::FxHashSet;
 
-use super::{Formula, Notation};
+use super::{Notation, Sentence};
 use crate::algebra::kernel::Callee;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::charts::Coordinate;
 use crate::mechanics::equations::System;
+use crate::mechanics::notation::{letters, product, rate};
 
 /// A quantity of a system and what it is, or its rate.
 struct Line {
@@ -16,7 +17,7 @@ struct Line {
 }
 
 /// Shared quantities and rates of a system, component by component; what is a rate itself is written there.
-pub fn system(arena: &mut Arena, notation: &Notation, system: &System) -> Vec<Formula> {
+pub fn system(arena: &mut Arena, notation: &Notation, system: &System) -> Vec<Sentence> {
     let is_rate = |s: Expr| {
         let is_it = |rate: &Polynomial| *rate == Polynomial::atom(s);
         let of = system.rates.iter().find(|(.., rate)| is_it(rate)).map(|(z, ..)| *z);
@@ -38,7 +39,7 @@ pub fn system(arena: &mut Arena, notation: &Notation, system: &System) -> Vec<Fo
     if system.kernels.iter().any(|kernel| matches!(kernel.callee, Callee::Stretches | Callee::LogStretches)) {
         list.push(principal_axes());
     }
-    list.extend(lines.iter().map(|line| line.formula(arena, notation)));
+    list.extend(lines.iter().map(|line| line.sentence(arena, notation)));
     list
 }
 
@@ -72,7 +73,7 @@ fn shown(arena: &mut Arena, notation: &Notation, lines: Vec<Line>) -> Vec<Line> 
 }
 
 impl Line {
-    fn formula(&self, arena: &mut Arena, notation: &Notation) -> Formula {
+    fn sentence(&self, arena: &mut Arena, notation: &Notation) -> Sentence {
         let (base, exponent) = notation.power(arena, self.symbol);
         let value = self.value.expression(arena);
         let (left, value) = match (self.is_rate, exponent) {
@@ -80,20 +81,21 @@ impl Line {
             (false, -1) => (base, arena.reciprocal(value)),
             _ => (self.symbol, value),
         };
-        let right = notation.formula(arena, value);
-        let Formula { text, latex } = notation.formula(arena, left);
-        match (self.is_rate, exponent) {
-            (false, _) => right.of(&text, &latex),
-            (true, 1) => right.of(&format!("d{text}/dt"), &format!("\\dot{{{latex}}}")),
-            (true, _) => right.of(&format!("d({text})/dt"), &format!("\\frac{{d}}{{dt}} {latex}")),
-        }
+        let left = notation.scalar(arena, left);
+        notation.scalar(arena, value).of(match (self.is_rate, exponent) {
+            (false, _) => left,
+            (true, 1) => rate(left),
+            (true, _) => Sentence::RateOfAll(Box::new(left)),
+        })
     }
 }
 
-/// What the stretches and the principal axes are.
-fn principal_axes() -> Formula {
-    Formula {
-        text: "G e_a = Q_a^2 e_a, |e_a| = 1, f_a = phi e_a".to_owned(),
-        latex: "G e_{a} = Q_{a}^{2} e_{a},\\quad |e_{a}| = 1,\\quad f_{a} = \\varphi e_{a}".to_owned(),
-    }
+/// What the stretches and the principal axes are: `G e_a = Q_a^2 e_a, |e_a| = 1, f_a = phi e_a`.
+fn principal_axes() -> Sentence {
+    let (axis, stretch) = (|| Sentence::from(letters::PRINCIPAL_AXIS), Sentence::from(letters::STRETCH));
+    let length = Sentence::Length(Box::new(axis()));
+    product([stretch.power(2), axis()]).of(product([letters::GREEN.into(), axis()])).with(vec![
+        Sentence::One.of(length),
+        product([letters::PLACEMENT.into(), axis()]).of(letters::STRETCHED_AXIS),
+    ])
 }

@@ -3,20 +3,16 @@
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
-use crate::mechanics::describe::{Formula, Notation, Sum, Summand};
+use crate::mechanics::describe::{Notation, Sentence, Sum, Summand, projection};
 use crate::mechanics::forces::Forces;
+use crate::mechanics::notation::{Letter, letters, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
 
 use super::Masses;
-use super::laws::{Law, Words, law};
+use super::laws::{Law, law};
 
-/// A formula from text and LaTeX.
-fn formula(text: impl Into<String>, latex: impl Into<String>) -> Formula {
-    Formula { text: text.into(), latex: latex.into() }
-}
-
-/// Names of the forces that no potential has, on `p` and on `Pi`, in text and LaTeX.
+/// Names of the forces that no potential has, on `p` and on `Pi`.
 #[derive(Default)]
 pub struct ForceNames {
     on_linear: Vec<Summand>,
@@ -35,8 +31,8 @@ impl ForceNames {
 
 /// The laws of the parts in words.
 struct Laws {
-    own: Vec<Formula>,
-    momentum: Formula,
+    own: Vec<Sentence>,
+    momentum: Sentence,
     rate: Sum,
 }
 
@@ -44,50 +40,55 @@ impl Laws {
     /// Those of parts in the velocities of some frames, on a group or on all placements.
     fn of(frames: &[Frame], confined: bool) -> Self {
         let laws: Vec<&Law> = frames.iter().map(|frame| law(*frame, confined)).collect();
-        let sum = |which: fn(&Words) -> &'static str| {
-            laws.iter().map(|law| which(&law.momentum)).collect::<Vec<_>>().join(" + ")
-        };
-        let mut rate = Sum::default();
-        for (negative, (text, latex)) in laws.iter().filter_map(|law| law.rate) {
-            rate.push(negative, text, latex);
-        }
-        Self {
-            own: laws.iter().filter_map(|law| law.own).map(|(text, latex)| formula(text, latex)).collect(),
-            momentum: formula(sum(|words| words.0), sum(|words| words.1)),
-            rate,
-        }
+        let (mut momentum, mut rate) = (Sum::default(), Sum::default());
+        momentum.extend(laws.iter().map(|law| Summand::plus((law.momentum)())));
+        rate.extend(laws.iter().filter_map(|law| law.rate).map(|rate| rate()));
+        let own = laws.iter().filter_map(|law| law.own).map(|(name, value)| value().of(name)).collect();
+        Self { own, momentum: momentum.value(), rate }
     }
+}
+
+fn letter(letter: Letter) -> Sentence {
+    letter.into()
+}
+
+fn placement() -> Sentence {
+    letter(letters::PLACEMENT)
+}
+
+fn half(arena: &mut Arena, of: Sentence) -> Sentence {
+    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }
 
 /// `H` through the velocities.
 pub fn hamiltonian(
     arena: &mut Arena,
     notation: &Notation,
-    internal: Formula,
+    (internal, definitions): (Sentence, Vec<Sentence>),
     masses: &Masses,
     potential: Option<&Potential>,
     forces: &Forces,
-) -> Formula {
-    let mut sum = internal;
-    let mut add = |text: &str, latex: &str| {
-        sum.text += &format!(" + {text}");
-        sum.latex += &format!(" + {latex}");
-    };
+) -> Sentence {
+    let mut sum = Sum::default();
+    sum.push(Summand::plus(internal));
     if !masses.are_none() {
-        add("1/2 p^T dx/dt", "\\frac{1}{2} p^T\\dot x");
+        let power = product([letter(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
+        sum.push(Summand::plus(half(arena, power)));
     }
     if let Some(u) = potential {
-        let Formula { text, latex } = notation.formula(arena, u.energy);
-        add(&text, &latex);
+        sum.push(Summand::plus(notation.scalar(arena, u.energy)));
     }
-    forces.potentials().iter().for_each(|u| add(&u.text, &u.latex));
-    sum.with(forces.definitions(arena, notation))
+    sum.extend(forces.potentials().into_iter().map(Summand::plus));
+    sum.of(letters::HAMILTONIAN).with(definitions).with(forces.definitions(arena, notation))
 }
 
-/// `H` of the internal motion.
-#[must_use]
-pub fn internal_hamiltonian() -> Formula {
-    formula("H = 1/2 tr(Pi dphi/dt)", "H = \\frac{1}{2}\\operatorname{tr}(\\Pi\\dot\\varphi)")
+/// The kinetic energy of the internal motion, through velocity and momentum.
+pub fn internal_energy(arena: &mut Arena, confined: bool) -> Sentence {
+    let factors = match confined {
+        false => [letter(letters::CANONICAL_MOMENTUM), rate(letters::PLACEMENT)],
+        true => [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY].map(letter),
+    };
+    half(arena, trace(product(factors)))
 }
 
 /// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
@@ -98,39 +99,27 @@ pub fn internal_equations(
     frames: &[Frame],
     (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
-) -> Vec<Formula> {
-    let Laws { own: mut list, momentum, mut rate } = Laws::of(frames, false);
+) -> Vec<Sentence> {
+    let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, false);
     if masses.body.is_some() {
         let mut sum = Sum::default();
-        sum.push(false, "p", "p");
+        sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
         let space = space_mass(arena, masses).scaled(&Rational::MINUS_ONE);
-        sum.add(arena, notation, &space, ("dx/dt", "\\dot x"));
-        let Formula { text, latex } = sum.value();
-        let (text, latex) = match masses.are_mixed() {
-            true => (format!("({text})^T"), format!("({latex})^T")),
-            false => ("p^T".to_owned(), "\\,p^T".to_owned()),
-        };
-        rate.push(true, &format!("phi^-1 dx/dt {text}"), &format!("\\varphi^{{-1}}\\dot x {latex}"));
+        sum.add(arena, notation, &space, rate(letters::CENTRE));
+        let own = sum.value().transposed();
+        force.push(Summand::minus(product([placement().inverse(), rate(letters::CENTRE), own])));
     }
+    force.extend(potential.map(|_| Summand::plus(letters::CANONICAL_FORCE)));
+    force.extend(names.on_affine.iter().cloned());
+    let momentum = momentum.of(letters::CANONICAL_MOMENTUM);
+    list.push(Sentence::Solved(Box::new(momentum), Box::new(rate(letters::PLACEMENT))));
+    list.push(force.of(rate(letters::CANONICAL_MOMENTUM)));
     if potential.is_some() {
-        rate.push(false, "N", "N");
-    }
-    rate.extend(&names.on_affine);
-    list.push(formula(
-        format!("Pi = {}, solved for dphi/dt", momentum.text),
-        format!("\\Pi = {}", momentum.latex),
-    ));
-    list.push(rate.of("dPi/dt", "\\dot\\Pi"));
-    if potential.is_some() {
-        list.push(formula("N = -(dU/dphi)^T", "N = -(\\partial U/\\partial\\varphi)^T"));
+        let mut force = Sum::default();
+        force.push(Summand::minus(slope(letters::POTENTIAL, letters::PLACEMENT).transposed()));
+        list.push(force.of(letters::CANONICAL_FORCE));
     }
     list
-}
-
-/// `H` of the internal motion on a group.
-#[must_use]
-pub fn confined_hamiltonian() -> Formula {
-    formula("H = 1/2 tr(Sigma_hat Omega_hat)", "H = \\frac{1}{2}\\operatorname{tr}(\\hat\\Sigma\\hat\\Omega)")
 }
 
 /// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has.
@@ -142,30 +131,26 @@ pub fn confined_equations(
     group: Constraint,
     (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
-) -> Vec<Formula> {
-    let Laws { own: mut list, momentum, mut rate } = Laws::of(frames, true);
+) -> Vec<Sentence> {
+    let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
     if let Some(mass) = masses.body {
         let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
-        rate.add(arena, notation, &mass, ("v_hat v_hat^T", "\\hat v\\hat v^T"));
+        let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
+        force.add(arena, notation, &mass, product([v(), v().transposed()]));
     }
+    force.extend(potential.map(|_| Summand::plus(letters::COMOVING_AFFINE_FORCE)));
+    force.extend(names.on_affine.iter().cloned());
+    let projected = |of: Sentence| Sentence::Applied(letters::PROJECTION, vec![of]);
+    let [spin, velocity] = [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY];
+    list.push(Sentence::Solved(Box::new(projected(momentum).of(spin)), Box::new(velocity.into())));
+    list.push(product([placement(), velocity.into()]).of(rate(letters::PLACEMENT)));
+    list.push(projected(force.value()).of(rate(spin)));
+    list.push(projection(group));
     if potential.is_some() {
-        rate.push(false, "Q_hat", "\\hat Q");
-    }
-    rate.extend(&names.on_affine);
-    list.push(formula(
-        format!("Sigma_hat = P ({}), solved for Omega_hat", momentum.text),
-        format!("\\hat\\Sigma = P ({})", momentum.latex),
-    ));
-    list.push(formula("dphi/dt = phi Omega_hat", "\\dot\\varphi = \\varphi\\hat\\Omega"));
-    let Formula { text, latex } = rate.value();
-    list.push(formula(format!("dSigma_hat/dt = P ({text})"), format!("\\dot{{\\hat\\Sigma}} = P ({latex})")));
-    let (text, latex) = group.projection();
-    list.push(formula(text, latex));
-    if potential.is_some() {
-        list.push(formula(
-            "Q_hat = -(dU/dphi)^T phi",
-            "\\hat Q = -(\\partial U/\\partial\\varphi)^T\\varphi",
-        ));
+        let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
+        let mut force = Sum::default();
+        force.push(Summand::minus(product([push, placement()])));
+        list.push(force.of(letters::COMOVING_AFFINE_FORCE));
     }
     list
 }
@@ -176,29 +161,27 @@ fn space_mass(arena: &mut Arena, masses: &Masses) -> Polynomial {
 }
 
 /// The velocity of the centre of mass; `None` where it does not move.
-fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Formula> {
-    let (body, space) = ("phi phi^T p", "\\varphi\\varphi^T p");
+fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Sentence> {
+    let p = || letter(letters::LINEAR_MOMENTUM);
+    let pulled = || [placement().transposed(), p()];
     let mut sum = Sum::default();
     let (mass, of) = match (masses.body, masses.space) {
         (None, None) => return None,
-        (Some(mass), None) => (mass, (body, space)),
-        (None, Some(mass)) => (mass, ("p", "p")),
+        (Some(mass), None) => (mass, product([placement(), product(pulled())])),
+        (None, Some(mass)) => (mass, p()),
         (Some(mass), Some(_)) => {
             let (space, body) = (space_mass(arena, masses), Polynomial::normal_form(arena, mass));
-            sum.add(arena, notation, &space, ("G", "G"));
+            sum.add(arena, notation, &space, letters::GREEN);
             // A multiple of the identity.
-            sum.add(arena, notation, &body, ("", ""));
-            let Formula { text, latex } = sum.value();
-            return Some(formula(
-                format!("dx/dt = phi ({text})^-1 phi^T p"),
-                format!("\\dot x = \\varphi ({latex})^{{-1}}\\varphi^T p"),
-            ));
+            sum.add_number(arena, notation, &body);
+            let velocity = product([placement(), sum.value().inverse(), product(pulled())]);
+            return Some(velocity.of(rate(letters::CENTRE)));
         }
     };
     let inverse = arena.reciprocal(mass);
     let inverse = Polynomial::normal_form(arena, inverse);
     sum.add(arena, notation, &inverse, of);
-    Some(sum.of("dx/dt", "\\dot x"))
+    Some(sum.of(rate(letters::CENTRE)))
 }
 
 /// The velocity of the centre of mass and the balance of `p`.
@@ -208,12 +191,12 @@ pub fn centre_equations(
     notation: &Notation,
     (masses, potential): (&Masses, Option<&Potential>),
     names: &ForceNames,
-) -> Vec<Formula> {
+) -> Vec<Sentence> {
     let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };
     let mut force = Sum::default();
     if potential.is_some_and(Potential::moves_the_centre) {
-        force.push(true, "dU/dx", "\\partial U/\\partial x");
+        force.push(Summand::minus(slope(letters::POTENTIAL, letters::CENTRE)));
     }
-    force.extend(&names.on_linear);
-    vec![velocity, force.of("dp/dt", "\\dot p")]
+    force.extend(names.on_linear.iter().cloned());
+    vec![velocity, force.of(rate(letters::LINEAR_MOMENTUM))]
 }

@@ -3,30 +3,56 @@
 
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, difference, outer, product, sum, table, times, transpose};
+use crate::algebra::ring::{self, Ring, Square, difference, outer, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::Load;
 use crate::mechanics::group_point::{GroupPoint, inverse};
 use crate::mechanics::kinetic::Kinetic;
+use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, product, slope};
 use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
 
 use super::Masses;
 
-/// A formula as text and in LaTeX.
-pub(super) type Words = (&'static str, &'static str);
-
 /// What a part adds.
 pub(super) struct Law {
-    /// Its momentum in its own frame, where that has a name.
-    pub(super) own: Option<Words>,
+    /// The name of its momentum in its own frame and of the energy, where the momentum has a name.
+    pub(super) own: Option<(Letter, Own)>,
     /// Its momentum in the frame of the sum.
-    pub(super) momentum: Words,
-    /// What it adds to the rate, and whether it takes it away.
-    pub(super) rate: Option<(bool, Words)>,
+    pub(super) momentum: fn() -> Sentence,
+    /// What it adds to the rate.
+    pub(super) rate: Option<fn() -> Summand>,
     /// Momentum and rate.
     value: fn(&Placed) -> [Square<Residue>; 2],
+}
+
+/// What the momentum of a part is.
+type Own = fn() -> Sentence;
+
+fn letter(letter: Letter) -> Sentence {
+    letter.into()
+}
+
+fn inverse_placement() -> Sentence {
+    letter(letters::PLACEMENT).inverse()
+}
+
+/// `(dT/dO)^T`
+fn momentum(energy: Letter, velocity: Letter) -> Sentence {
+    slope(energy, velocity).transposed()
+}
+
+fn in_the_body() -> Sentence {
+    momentum(letters::ENERGY_IN_THE_BODY, letters::COMOVING_AFFINE_VELOCITY)
+}
+
+fn in_space() -> Sentence {
+    momentum(letters::ENERGY_IN_SPACE, letters::AFFINE_VELOCITY)
+}
+
+fn in_dphi() -> Sentence {
+    momentum(letters::ENERGY_IN_DPHI, letters::PLACEMENT_VELOCITY)
 }
 
 /// A part at a point: `X = (dT/dO)^T`, its velocity `O`, that of the sum, `phi` and `phi^-1`.
@@ -39,65 +65,58 @@ struct Placed {
 }
 
 const BODY: Law = Law {
-    own: Some((
-        "Sigma_hat = (dT_body/dOmega_hat)^T",
-        "\\hat\\Sigma = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T",
-    )),
-    momentum: ("Sigma_hat phi^-1", "\\hat\\Sigma\\varphi^{-1}"),
-    rate: Some((true, ("Omega_hat Sigma_hat phi^-1", "\\hat\\Omega\\hat\\Sigma\\varphi^{-1}"))),
+    own: Some((letters::COMOVING_AFFINE_SPIN, in_the_body)),
+    momentum: || product([letter(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
+    rate: Some(|| {
+        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(letter);
+        Summand::minus(product([o, x, inverse_placement()]))
+    }),
     value: |at| {
-        let momentum = product(&at.x, &at.psi);
-        [momentum.clone(), negative(&product(&at.o, &momentum))]
+        let momentum = ring::product(&at.x, &at.psi);
+        [momentum.clone(), negative(&ring::product(&at.o, &momentum))]
     },
 };
 
 const SPACE: Law = Law {
-    own: Some((
-        "Sigma = (dT_space/dOmega)^T",
-        "\\Sigma = (\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T",
-    )),
-    momentum: ("phi^-1 Sigma", "\\varphi^{-1}\\Sigma"),
-    rate: Some((true, ("phi^-1 Sigma Omega", "\\varphi^{-1}\\Sigma\\,\\Omega"))),
+    own: Some((letters::AFFINE_SPIN, in_space)),
+    momentum: || product([inverse_placement(), letter(letters::AFFINE_SPIN)]),
+    rate: Some(|| {
+        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(letter);
+        Summand::minus(product([inverse_placement(), x, o]))
+    }),
     value: |at| {
-        let momentum = product(&at.psi, &at.x);
-        [momentum.clone(), negative(&product(&momentum, &at.o))]
+        let momentum = ring::product(&at.psi, &at.x);
+        [momentum.clone(), negative(&ring::product(&momentum, &at.o))]
     },
 };
 
-const FLAT: Law = Law {
-    own: None,
-    momentum: ("(dT_flat/dphi_dot)^T", "(\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T"),
-    rate: None,
-    value: |at| [at.x.clone(), zero(&at.x)],
-};
+const FLAT: Law = Law { own: None, momentum: in_dphi, rate: None, value: |at| [at.x.clone(), zero(&at.x)] };
 
 const BODY_ON_A_GROUP: Law = Law {
-    own: Some(("X = (dT_body/dOmega_hat)^T", "X = (\\partial T_{\\mathrm{body}}/\\partial\\hat\\Omega)^T")),
-    momentum: ("X", "X"),
-    rate: Some((false, ("[X, Omega_hat]", "[X, \\hat\\Omega]"))),
-    value: |at| [at.x.clone(), difference(&product(&at.x, &at.o), &product(&at.o, &at.x))],
+    own: Some((letters::SPIN_IN_THE_BODY, in_the_body)),
+    momentum: || letter(letters::SPIN_IN_THE_BODY),
+    rate: Some(|| Summand::plus(commutator(letters::SPIN_IN_THE_BODY, letters::COMOVING_AFFINE_VELOCITY))),
+    value: |at| [at.x.clone(), difference(&ring::product(&at.x, &at.o), &ring::product(&at.o, &at.x))],
 };
 
 const SPACE_ON_A_GROUP: Law = Law {
-    own: Some((
-        "Y = phi^-1 (dT_space/dOmega)^T phi",
-        "Y = \\varphi^{-1}(\\partial T_{\\mathrm{space}}/\\partial\\Omega)^T\\varphi",
-    )),
-    momentum: ("Y", "Y"),
+    own: Some((letters::SPIN_IN_SPACE, || {
+        product([inverse_placement(), in_space(), letter(letters::PLACEMENT)])
+    })),
+    momentum: || letter(letters::SPIN_IN_SPACE),
     rate: None,
-    value: |at| [product(&product(&at.psi, &at.x), &at.phi), zero(&at.x)],
+    value: |at| [ring::product(&ring::product(&at.psi, &at.x), &at.phi), zero(&at.x)],
 };
 
 const FLAT_ON_A_GROUP: Law = Law {
-    own: Some((
-        "Z = (dT_flat/dphi_dot)^T phi",
-        "Z = (\\partial T_{\\mathrm{flat}}/\\partial\\dot\\varphi)^T\\varphi",
-    )),
-    momentum: ("Z", "Z"),
-    rate: Some((false, ("Z Omega_hat", "Z\\hat\\Omega"))),
+    own: Some((letters::SPIN_IN_DPHI, || product([in_dphi(), letter(letters::PLACEMENT)]))),
+    momentum: || letter(letters::SPIN_IN_DPHI),
+    rate: Some(|| {
+        Summand::plus(product([letters::SPIN_IN_DPHI, letters::COMOVING_AFFINE_VELOCITY].map(letter)))
+    }),
     value: |at| {
-        let momentum = product(&at.x, &at.phi);
-        [momentum.clone(), product(&momentum, &at.velocity)]
+        let momentum = ring::product(&at.x, &at.phi);
+        [momentum.clone(), ring::product(&momentum, &at.velocity)]
     },
 };
 
@@ -151,12 +170,13 @@ fn hold_at(
         |m: Square<Residue>| chart.confined.map_or_else(|| m.clone(), |group| group.projected(&m));
     let (phi, velocity) = (of(&chart.phi), of(velocity));
     let psi = inverse(&phi);
-    let phi_dot = if frame_of(chart) == Frame::Body { product(&phi, &velocity) } else { velocity.clone() };
+    let phi_dot =
+        if frame_of(chart) == Frame::Body { ring::product(&phi, &velocity) } else { velocity.clone() };
     let (mut momentum, mut rate) = (zero(&phi), zero(&phi));
     for part in parts.iter().filter(|part| !part.internal.is_empty()) {
         let o = match part.frame {
-            Frame::Body => product(&psi, &phi_dot),
-            Frame::Space => product(&phi_dot, &psi),
+            Frame::Body => ring::product(&psi, &phi_dot),
+            Frame::Space => ring::product(&phi_dot, &psi),
             Frame::Flat => phi_dot.clone(),
         };
         let form: Vec<Vec<Residue>> = part.form().iter().map(|row| row.iter().map(value).collect()).collect();

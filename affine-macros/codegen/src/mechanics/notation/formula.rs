@@ -1,5 +1,9 @@
 //! A formula in both notations.
 
+use super::names::Notation;
+use super::sentence::Sentence;
+use crate::algebra::Arena;
+
 /// A formula in both notations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
@@ -9,19 +13,10 @@ pub struct Formula {
     pub latex: String,
 }
 
-impl Formula {
-    /// With definitions of what it names.
+impl Notation<'_> {
+    /// A sentence in both notations.
     #[must_use]
-    pub(in crate::mechanics) fn with(self, definitions: Vec<Formula>) -> Self {
-        definitions.into_iter().fold(self, |formula, Formula { text, latex }| Formula {
-            text: format!("{}, {text}", formula.text),
-            latex: format!("{},\\quad {latex}", formula.latex),
-        })
-    }
-
-    /// `left = self`.
-    pub(in crate::mechanics) fn of(self, left: &str, left_latex: &str) -> Self {
-        let Self { text, latex } = self;
-        Self { text: format!("{left} = {text}"), latex: format!("{left_latex} = {latex}") }
+    pub fn printed(&self, arena: &Arena, sentence: &Sentence) -> Formula {
+        Formula { text: self.text(arena, sentence), latex: self.latex(arena, sentence) }
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn latex(arena: &Arena, expr: Expr, name: &dyn Fn(Expr) -> Written) -
     }
 }
 
-fn bracketed(body: &str) -> String {
+pub(super) fn bracketed(body: &str) -> String {
     format!("\\left({body}\\right)")
 }
 

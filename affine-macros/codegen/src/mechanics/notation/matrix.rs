@@ -1,9 +1,9 @@
 //! Matrices of coefficients: which name each has, and what it is.
 
 use super::field::{self, field_of};
-use super::formula::Formula;
-use super::matrix_name::{MatrixName, Named};
-use super::names::Notation;
+use super::matrix_name::MatrixName;
+use super::names::{Named, Notation};
+use super::sentence::Sentence;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Kinetic;
@@ -58,16 +58,16 @@ impl Notation<'_> {
         if let Some(named) = self.matrix(rows) {
             return named.name.clone();
         }
-        let Formula { text, latex } = self.literal(arena, rows);
-        MatrixName { text, latex, letter: false }
+        let literal = self.literal(arena, rows);
+        MatrixName::new(self.text(arena, &literal), self.latex(arena, &literal), false)
     }
 
     /// What the matrices of terms are, where they are no fields.
     pub(in crate::mechanics) fn matrices_in<'t>(
         &self,
         terms: impl IntoIterator<Item = &'t Term>,
-    ) -> Vec<Formula> {
-        let mut list: Vec<Formula> = Vec::new();
+    ) -> Vec<Sentence> {
+        let mut list: Vec<Sentence> = Vec::new();
         for term in terms {
             let Coefficient::Matrix(matrix) = &term.value else { continue };
             let definition = self.matrix(&matrix.0).and_then(|named| named.definition.as_ref());
@@ -129,49 +129,28 @@ impl Notation<'_> {
                 MatrixName::new(format!("{letter}_R_{frame}"), latex, false)
             }
         };
-        let Formula { text, latex } = self.literal(arena, &given);
-        let (bases, bases_latex) = match carried {
-            Some(_) => (" in the given bases", "\\text{ in the given bases}"),
-            None => ("", ""),
-        };
-        let definition = Formula {
-            text: format!("{} = {text}{bases}", name.text),
-            latex: format!("{} = {latex}{bases_latex}", name.latex),
-        };
+        let literal = self.literal(arena, &given);
+        let value = if carried.is_some() { Sentence::InGivenBases(Box::new(literal)) } else { literal };
+        let definition = value.of(Sentence::Matrix(name.clone()));
         Named { rows: rows.to_vec(), name, definition: Some(definition), carried }
     }
 
     /// The rows of a matrix, or a field, or its diagonal.
-    pub(super) fn literal(&self, arena: &mut Arena, rows: &[Vec<Expr>]) -> Formula {
+    pub(super) fn literal(&self, arena: &mut Arena, rows: &[Vec<Expr>]) -> Sentence {
         if let Some(name) = field_of(arena, rows) {
-            let MatrixName { text, latex, .. } = field::matrix(name);
-            return Formula { text, latex };
+            return Sentence::Matrix(field::matrix(name));
         }
         let zero = |e: &Expr| arena.as_constant(*e).is_some_and(|value| value.is_zero());
         let is_diagonal = rows
             .iter()
             .enumerate()
             .all(|(i, row)| row.iter().enumerate().all(|(j, entry)| i == j || zero(entry)));
-        let mut written = |entries: &[Expr]| -> (Vec<String>, Vec<String>) {
-            entries.iter().map(|e| self.formula(arena, *e)).map(|f| (f.text, f.latex)).unzip()
-        };
         if is_diagonal {
-            let diagonal: Vec<Expr> = rows.iter().enumerate().map(|(i, row)| row[i]).collect();
-            let (texts, formulas) = written(&diagonal);
-            return Formula {
-                text: format!("diag({})", texts.join(", ")),
-                latex: format!("\\operatorname{{diag}}\\left({}\\right)", formulas.join(", ")),
-            };
+            let diagonal = rows.iter().enumerate().map(|(i, row)| self.scalar(arena, row[i]));
+            return Sentence::Diagonal(diagonal.collect());
         }
-        let (texts, formulas): (Vec<String>, Vec<String>) = rows
-            .iter()
-            .map(|row| written(row))
-            .map(|(texts, formulas)| (format!("[{}]", texts.join(", ")), formulas.join(" & ")))
-            .unzip();
-        Formula {
-            text: format!("[{}]", texts.join(", ")),
-            latex: format!("\\begin{{pmatrix}} {} \\end{{pmatrix}}", formulas.join(" \\\\ ")),
-        }
+        let mut row = |row: &Vec<Expr>| row.iter().map(|entry| self.scalar(arena, *entry)).collect();
+        Sentence::Rows(rows.iter().map(&mut row).collect())
     }
 
     /// The matrix of which this symmetric block is the part on some rows that the others do not mix with, and these rows.

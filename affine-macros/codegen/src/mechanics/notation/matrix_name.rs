@@ -1,13 +1,13 @@
 //! Names of matrices, of their entries and of those of their inverses.
 
-use super::formula::Formula;
-use crate::algebra::Expr;
 use crate::algebra::text::Written;
 
 /// A matrix by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::mechanics) struct MatrixName {
+pub struct MatrixName {
+    /// As text.
     pub(in crate::mechanics) text: String,
+    /// In LaTeX.
     pub(in crate::mechanics) latex: String,
     /// Can an index be set at the LaTeX?
     pub(super) letter: bool,
@@ -45,15 +45,4 @@ impl MatrixName {
     pub(super) fn inverse_entry(&self, row: usize, column: usize) -> [Written; 2] {
         self.inverse().entry(row, column).map(|Written { body, .. }| Written::raised(body))
     }
-}
-
-/// A matrix of a quadratic form under its name.
-#[derive(Clone, Debug)]
-pub(super) struct Named {
-    pub(super) rows: Vec<Vec<Expr>>,
-    pub(super) name: MatrixName,
-    /// What it is, where it is no field.
-    pub(super) definition: Option<Formula>,
-    /// Its number among the matrices that `prepare()` carries to orthonormal bases.
-    pub(super) carried: Option<usize>,
 }

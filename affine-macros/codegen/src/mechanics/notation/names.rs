@@ -3,9 +3,9 @@
 use rustc_hash::FxHashMap;
 
 use super::field;
-use super::formula::Formula;
-use super::matrix_name::{MatrixName, Named};
-use super::{latex, symbols};
+use super::matrix_name::MatrixName;
+use super::sentence::Sentence;
+use super::symbols;
 use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::custom::{By, Custom, On, Role};
@@ -21,7 +21,18 @@ pub struct Notation<'a> {
     /// Entries of inverses: of which matrix, with row and column from 1.
     pub(super) inverses: FxHashMap<Expr, (MatrixName, (usize, usize))>,
     /// Blocks of the mass matrix that are no part of a matrix that has a name: their entries, and what they are.
-    pub(super) blocks: Vec<(Vec<Expr>, Formula)>,
+    pub(super) blocks: Vec<(Vec<Expr>, Sentence)>,
+}
+
+/// A matrix of a quadratic form under its name.
+#[derive(Clone, Debug)]
+pub(super) struct Named {
+    pub(super) rows: Vec<Vec<Expr>>,
+    pub(super) name: MatrixName,
+    /// What it is, where it is no field.
+    pub(super) definition: Option<Sentence>,
+    /// Its number among the matrices that `prepare()` carries to orthonormal bases.
+    pub(super) carried: Option<usize>,
 }
 
 impl Notation<'_> {
@@ -38,21 +49,19 @@ impl Notation<'_> {
         self.inverses.get(&symbol).is_some_and(same)
     }
 
-    /// An expression in both notations.
-    pub(in crate::mechanics) fn formula(&self, arena: &mut Arena, expr: Expr) -> Formula {
-        let shown = self.through_powers(arena, expr);
-        let name = |which: usize| {
-            let arena = &*arena;
-            move |symbol: Expr| {
-                let [text, latex] = self.written(arena, symbol);
-                if which == 0 { text } else { latex }
-            }
-        };
-        Formula { text: arena.text_with(shown, &name(0)), latex: latex::latex(arena, shown, &name(1)) }
+    /// An expression.
+    pub(in crate::mechanics) fn scalar(&self, arena: &mut Arena, expr: Expr) -> Sentence {
+        Sentence::Scalar(self.through_powers(arena, expr))
+    }
+
+    /// A polynomial.
+    pub(in crate::mechanics) fn polynomial(&self, arena: &mut Arena, polynomial: &Polynomial) -> Sentence {
+        let expr = polynomial.expression(arena);
+        self.scalar(arena, expr)
     }
 
     /// The expression with powers of symbols for what stands for them.
-    fn through_powers(&self, arena: &mut Arena, expr: Expr) -> Expr {
+    pub(super) fn through_powers(&self, arena: &mut Arena, expr: Expr) -> Expr {
         let mut symbols: Vec<Expr> = Vec::new();
         arena.any_symbol(expr, &mut |symbol| {
             symbols.push(symbol);
@@ -88,14 +97,8 @@ impl Notation<'_> {
         arena.quantity(symbol) == Some(Quantity::Swelling)
     }
 
-    /// A polynomial in both notations.
-    pub(in crate::mechanics) fn polynomial(&self, arena: &mut Arena, polynomial: &Polynomial) -> Formula {
-        let expr = polynomial.expression(arena);
-        self.formula(arena, expr)
-    }
-
     /// Text and LaTeX of a symbol.
-    fn written(&self, arena: &Arena, symbol: Expr) -> [Written; 2] {
+    pub(super) fn written(&self, arena: &Arena, symbol: Expr) -> [Written; 2] {
         if let Some((matrix, (row, column))) = self.inverses.get(&symbol) {
             return matrix.inverse_entry(*row, *column);
         }

@@ -1,140 +1,38 @@
 //! The symbols of the mechanics: the one list of what formulas name besides the fields of a model.
 
-use crate::algebra::text::{Shape, Written};
-use crate::symbol::{Aspect, Factor, Factorised, Quantity, Symbol};
-
-/// A symbol of formulas.
-#[derive(Clone, Copy, Debug)]
-pub struct Letter {
-    /// What it stands for in the derivation; nothing where formulas alone name it.
-    of: Option<Of>,
-    /// As text; `#` stands for indices.
-    pub text: &'static str,
-    /// As LaTeX, likewise.
-    pub latex: &'static str,
-    /// Where the LaTeX takes brackets.
-    shape: Shape,
-    /// Its meaning, in words.
-    pub meaning: &'static str,
-}
-
-/// Symbols of the derivation that are written alike but for their indices.
-#[derive(Clone, Copy, Debug)]
-enum Of {
-    /// A quantity without components.
-    One(Quantity),
-    /// The components of a quantity.
-    Components(Quantity),
-    /// One of them.
-    Component(Quantity, usize),
-    /// What the energies in the body have of it.
-    BodyShare(Quantity),
-    /// The factorisation of the mass matrix of the centre.
-    Centre(Factor),
-}
-
-impl Of {
-    /// The indices of a symbol, where it is one of these.
-    fn indices(self, symbol: &Symbol) -> Option<&[usize]> {
-        match (self, symbol) {
-            (Self::One(quantity), Symbol::Component(own, indices)) => {
-                (*own == quantity && indices.is_empty()).then_some(indices)
-            }
-            (Self::Components(quantity), Symbol::Component(own, indices)) => {
-                (*own == quantity && !indices.is_empty()).then_some(indices)
-            }
-            (Self::Component(quantity, index), Symbol::Component(own, indices)) => {
-                (*own == quantity && *indices == [index]).then_some(&[])
-            }
-            (Self::BodyShare(quantity), Symbol::About(Aspect::InTheBody, of)) => {
-                Self::Components(quantity).indices(of)
-            }
-            (Self::Centre(factor), Symbol::Factor(own, Factorised::Centre, 0, indices)) => {
-                (*own == factor).then_some(indices)
-            }
-            _ => None,
-        }
-    }
-}
-
-const fn letter(of: Option<Of>, text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    Letter { of, text, latex, shape: Shape::Letter, meaning }
-}
-
-/// A quantity without components.
-const fn one(of: Quantity, text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    letter(Some(Of::One(of)), text, latex, meaning)
-}
-
-/// The components of a quantity.
-const fn of(of: Quantity, text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    letter(Some(Of::Components(of)), text, latex, meaning)
-}
-
-/// One of the traces of powers.
-const fn power(
-    of: Quantity,
-    power: usize,
-    text: &'static str,
-    latex: &'static str,
-    meaning: &'static str,
-) -> Letter {
-    letter(Some(Of::Component(of, power)), text, latex, meaning)
-}
-
-/// What the energies in the body have of a momentum.
-const fn share(of: Quantity, text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    letter(Some(Of::BodyShare(of)), text, latex, meaning)
-}
-
-/// Numbers of the factorised mass matrix of the centre.
-const fn factor(of: Factor, text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    letter(Some(Of::Centre(of)), text, latex, meaning)
-}
-
-/// A matrix, a function or a group that formulas name as a whole.
-const fn whole(text: &'static str, latex: &'static str, meaning: &'static str) -> Letter {
-    letter(None, text, latex, meaning)
-}
-
-/// One whose LaTeX has a superscript.
-const fn raised(letter: Letter) -> Letter {
-    Letter { shape: Shape::Raised, ..letter }
-}
-
-/// One whose LaTeX is a function without brackets.
-const fn applied(letter: Letter) -> Letter {
-    Letter { shape: Shape::Applied, ..letter }
-}
+use super::letter::{Letter, applied, factor, of, one, power, raised, share, whole};
+use super::letters;
+use crate::algebra::text::Written;
+use crate::symbol::{Factor, Quantity, Symbol};
 
 /// Every symbol; `#` stands for indices.
 pub const SYMBOLS: &[Letter] = &[
     whole("n", "n", "the dimension"),
     one(Quantity::Time, "t", "t", "the time"),
     // The configuration and its velocity.
-    whole("x", "x", "the place of the centre of mass"),
+    letters::CENTRE,
     of(Quantity::Position, "x_#", "x_{#}", "its components"),
     of(Quantity::CentreVelocity, "x_dot_#", "\\dot x_{#}", "its velocity"),
     of(Quantity::ComovingCentreVelocity, "v_hat_#", "\\hat v_{#}", "the co-moving velocity phi^-1 dx/dt"),
-    whole("v_hat", "\\hat v", "the co-moving velocity phi^-1 dx/dt"),
-    whole("phi", "\\varphi", "the placement"),
+    letters::COMOVING_CENTRE_VELOCITY,
+    letters::PLACEMENT,
     of(Quantity::Placement, "phi_#", "\\varphi_{#}", "its entries"),
     raised(of(Quantity::InversePlacement, "phi_inverse_#", "\\varphi^{-1}_{#}", "entries of phi^-1")),
-    whole("phi_dot", "\\dot\\varphi", "the velocity of the placement"),
+    letters::PLACEMENT_VELOCITY,
     of(Quantity::PlacementVelocity, "phi_dot_#", "\\dot\\varphi_{#}", "its entries"),
-    whole("Omega", "\\Omega", "the affine velocity dphi/dt phi^-1"),
+    letters::AFFINE_VELOCITY,
     of(Quantity::AffineVelocity, "omega_#", "\\Omega_{#}", "its entries"),
-    whole("Omega_hat", "\\hat\\Omega", "the co-moving affine velocity phi^-1 dphi/dt"),
+    letters::COMOVING_AFFINE_VELOCITY,
     of(Quantity::ComovingAffineVelocity, "omega_hat_#", "\\hat\\Omega_{#}", "its entries"),
     // Momenta.
-    whole("p", "p", "the linear momentum"),
+    letters::LINEAR_MOMENTUM,
     of(
         Quantity::LinearMomentum,
         "p_#",
         "p_{#}",
         "its components; momenta of stretches in the two-polar form",
     ),
-    whole("p_hat", "\\hat p", "the co-moving linear momentum phi^T p"),
+    letters::COMOVING_LINEAR_MOMENTUM,
     of(Quantity::ComovingLinearMomentum, "p_hat_#", "\\hat p_{#}", "its components"),
     share(
         Quantity::LinearMomentum,
@@ -142,24 +40,24 @@ pub const SYMBOLS: &[Letter] = &[
         "p_{\\mathrm{body},#}",
         "the share of the mass in the body, phi^-T m_body v_hat",
     ),
-    whole("Pi", "\\Pi", "the canonical affine momentum"),
+    letters::CANONICAL_MOMENTUM,
     of(Quantity::CanonicalMomentum, "pi_#", "\\Pi_{#}", "its entries"),
-    whole("Sigma", "\\Sigma", "the affine spin phi Pi"),
+    letters::AFFINE_SPIN,
     of(Quantity::AffineSpin, "sigma_#", "\\Sigma_{#}", "its entries"),
-    whole("Sigma_hat", "\\hat\\Sigma", "the co-moving affine spin Pi phi"),
+    letters::COMOVING_AFFINE_SPIN,
     of(Quantity::ComovingAffineSpin, "sigma_hat_#", "\\hat\\Sigma_{#}", "its entries"),
-    whole("I", "I", "the total affine momentum I(O) = x p^T + Sigma"),
-    whole("O", "O", "the origin, in I(O)"),
+    letters::TOTAL_AFFINE_MOMENTUM,
+    letters::ORIGIN,
     of(Quantity::TotalAffineMomentum, "I_#", "I_{#}", "entries of the total affine momentum"),
-    whole("S", "S", "the spin Sigma - Sigma^T"),
+    letters::SPIN,
     of(Quantity::Spin, "S_#", "S_{#}", "its entries"),
-    whole("Vort", "V", "the vorticity Sigma_hat - Sigma_hat^T"),
+    letters::VORTICITY,
     of(Quantity::Vorticity, "Vort_#", "V_{#}", "its entries"),
-    whole("X", "X", "the affine spin of the energy in the body; any matrix, beside P"),
-    whole("Y", "Y", "the affine spin of the energy in space, seen from the body"),
-    whole("Z", "Z", "the affine spin of the energy in dphi/dt, seen from the body"),
+    letters::SPIN_IN_THE_BODY,
+    letters::SPIN_IN_SPACE,
+    letters::SPIN_IN_DPHI,
     // Deformation.
-    whole("G", "G", "the Green deformation tensor phi^T phi"),
+    letters::GREEN,
     of(Quantity::Green, "G_#", "G_{#}", "its entries"),
     of(Quantity::Finger, "Ct_#", "\\tilde C_{#}", "entries of phi phi^T"),
     applied(power(Quantity::Trace, 1, "tr(G)", "\\operatorname{tr}G", "the trace of G")),
@@ -183,11 +81,11 @@ pub const SYMBOLS: &[Letter] = &[
     of(Quantity::InverseTensor, "K_#", "K_{#}", "entries of the inverse of G, or of Ct"),
     of(Quantity::InverseStrain, "E_#", "E_{#}", "entries of 1 - G^-1, or of 1 - Ct^-1"),
     of(Quantity::Stretches, "Q_#", "Q_{#}", "the stretches, singular values of phi"),
-    whole("Q_a", "Q_{a}", "one of them"),
+    letters::STRETCH,
     of(Quantity::LogStretches, "q_#", "q_{#}", "the logarithmic stretches ln Q_a"),
-    whole("e_a", "e_{a}", "the principal axes in the body, G e_a = Q_a^2 e_a"),
+    letters::PRINCIPAL_AXIS,
     of(Quantity::Axis, "e_#", "e_{#}", "their components"),
-    whole("f_a", "f_{a}", "phi e_a"),
+    letters::STRETCHED_AXIS,
     of(Quantity::StretchedAxis, "f_#", "f_{#}", "its components"),
     of(Quantity::UnitGreen, "G_bar_#", "\\bar G_{#}", "entries of G/D^2"),
     of(Quantity::UnitFinger, "Ct_bar_#", "\\bar{\\tilde C}_{#}", "entries of Ct/D^2"),
@@ -232,23 +130,23 @@ pub const SYMBOLS: &[Letter] = &[
     ),
     of(Quantity::DifferenceCouplings, "n_#", "N_{#}", "the other one"),
     // Energies and forces.
-    whole("T", "T", "the kinetic energy"),
-    whole("T_int", "T_{\\mathrm{int}}", "that of the internal motion"),
-    whole("T_body", "T_{\\mathrm{body}}", "the terms in Omega_hat"),
-    whole("T_space", "T_{\\mathrm{space}}", "the terms in Omega"),
-    whole("T_flat", "T_{\\mathrm{flat}}", "the terms in dphi/dt"),
-    whole("H", "H", "the Hamiltonian"),
-    whole("U", "U", "the potential"),
-    whole("U_g", "U_{\\mathrm{g}}", "the energy of the body in its own gravity"),
-    whole("R_F", "R_F", "Carlson's integral R_F, of the squared stretches"),
-    whole("R", "R", "Rayleigh's dissipation function"),
+    letters::KINETIC_ENERGY,
+    letters::INTERNAL_ENERGY,
+    letters::ENERGY_IN_THE_BODY,
+    letters::ENERGY_IN_SPACE,
+    letters::ENERGY_IN_DPHI,
+    letters::HAMILTONIAN,
+    letters::POTENTIAL,
+    letters::SELF_GRAVITY,
+    letters::CARLSON_RF,
+    letters::RAYLEIGH,
     one(Quantity::Work, "work", "W", "the work of the forces that no potential has"),
-    whole("F", "F", "the force on p"),
-    whole("F_hat", "\\hat F", "the force on p_hat"),
-    whole("Q", "Q", "the force on Sigma"),
-    whole("Q_hat", "\\hat Q", "the force on Sigma_hat"),
-    whole("N", "N", "the force on Pi"),
-    whole("P", "P", "the projection on the Lie algebra of a constraint"),
+    letters::FORCE,
+    letters::COMOVING_FORCE,
+    letters::AFFINE_FORCE,
+    letters::COMOVING_AFFINE_FORCE,
+    letters::CANONICAL_FORCE,
+    letters::PROJECTION,
     whole("Lambda", "\\Lambda", "the multiplier of a constraint"),
     of(Quantity::Drag, "Q_R_#", "Q_{R,#}", "the part of Q that R has in space"),
     of(Quantity::ComovingDrag, "Q_hat_R_#", "\\hat Q_{R,#}", "the part of Q_hat that R has in the body"),
@@ -304,8 +202,8 @@ pub const SYMBOLS: &[Letter] = &[
     whole("K_R_flat", "K_{R,\\mathrm{flat}}", "that of the terms in dphi/dt"),
     whole("Gamma", "\\Gamma", "a block of the mass matrix"),
     whole("Gamma_#", "\\Gamma_{#}", "blocks of the mass matrix"),
-    whole("A", "A", "the factor of the metric of space, g = A^T A"),
-    whole("B", "B", "the factor of the metric of the body, eta = B^T B"),
+    letters::SPACE_FACTOR,
+    letters::BODY_FACTOR,
     factor(Factor::Pivot, "d_#", "d_{#}", "pivots of the mass matrix of the centre, L diag(d) L^T"),
     factor(Factor::Lower, "L_#", "L_{#}", "its lower factor L"),
     factor(Factor::Rest, "u_#", "u_{#}", "entries of diag(d) L^T"),

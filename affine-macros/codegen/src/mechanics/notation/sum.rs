@@ -1,0 +1,79 @@
+//! Sums under construction.
+
+use super::names::Notation;
+use super::sentence::{Sentence, Summand};
+use crate::algebra::{Arena, Expr, Polynomial, Rational};
+
+/// A sum under construction.
+#[derive(Default)]
+pub(in crate::mechanics) struct Sum(Vec<Summand>);
+
+impl Sum {
+    /// Adds `coefficient * body`, with the sign in front.
+    pub(in crate::mechanics) fn add(
+        &mut self,
+        arena: &mut Arena,
+        notation: &Notation,
+        coefficient: &Polynomial,
+        body: impl Into<Sentence>,
+    ) {
+        if let Some((negative, size)) = signed(arena, notation, coefficient) {
+            let one = arena.as_constant(size).is_some_and(Rational::is_one);
+            let body = body.into();
+            let value = if one { body } else { Sentence::Multiple(size, Box::new(body)) };
+            self.push(Summand { negative, value });
+        }
+    }
+
+    /// Adds a number, or a multiple of the identity.
+    pub(in crate::mechanics) fn add_number(
+        &mut self,
+        arena: &mut Arena,
+        notation: &Notation,
+        number: &Polynomial,
+    ) {
+        if let Some((negative, size)) = signed(arena, notation, number) {
+            self.push(Summand { negative, value: Sentence::Scalar(size) });
+        }
+    }
+
+    /// Adds a summand; one that is a sum itself summand by summand.
+    pub(in crate::mechanics) fn push(&mut self, summand: Summand) {
+        match summand {
+            Summand { negative: false, value: Sentence::Sum(summands) } => self.0.extend(summands),
+            one => self.0.push(one),
+        }
+    }
+
+    /// Adds summands.
+    pub(in crate::mechanics) fn extend(&mut self, summands: impl IntoIterator<Item = Summand>) {
+        summands.into_iter().for_each(|summand| self.push(summand));
+    }
+
+    /// The finished sum.
+    pub(in crate::mechanics) fn value(mut self) -> Sentence {
+        match self.0.pop() {
+            Some(Summand { negative: false, value }) if self.0.is_empty() => value,
+            last => {
+                self.0.extend(last);
+                Sentence::Sum(self.0)
+            }
+        }
+    }
+
+    /// As what something is.
+    pub(in crate::mechanics) fn of(self, left: impl Into<Sentence>) -> Sentence {
+        self.value().of(left)
+    }
+}
+
+/// Is a coefficient negative, and its size; nothing where it is zero.
+fn signed(arena: &mut Arena, notation: &Notation, coefficient: &Polynomial) -> Option<(bool, Expr)> {
+    if coefficient.is_zero() {
+        return None;
+    }
+    let negative = coefficient.terms().all(|(_, c)| c.is_negative());
+    let size = if negative { coefficient.scaled(&Rational::MINUS_ONE) } else { coefficient.clone() };
+    let size = size.expression(arena);
+    Some((negative, notation.through_powers(arena, size)))
+}
