@@ -13,6 +13,7 @@ pub mod kernel;
 pub mod lagrange;
 pub mod linear;
 pub mod matrix;
+pub mod passage;
 pub mod polynomial;
 pub mod products;
 pub mod rational;

@@ -5,7 +5,6 @@ mod body;
 mod components;
 mod conditions;
 mod conserved;
-mod dilatation;
 mod domain;
 mod equations;
 mod formulas;
@@ -22,7 +21,6 @@ pub mod second_order;
 pub mod splitting;
 mod stated;
 mod symbols;
-mod trajectory;
 mod unconstrained;
 mod ways;
 mod well_posed;
@@ -44,7 +42,6 @@ use ways::Ways;
 
 pub use components::Components;
 pub use conserved::{Component, Conserved};
-pub use dilatation::DilatationalMotion;
 pub use domain::{Domain, Sign, SignedArgument};
 pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
@@ -53,7 +50,6 @@ use model::{Dynamics, Facts, Methods, Prepared};
 pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, Variational, VelocitySide};
 pub use quantities::{Balance, BalancedQuantities, Metric, Quantities};
 pub use symbols::{VolumeMeasure, reads_time};
-pub use trajectory::{AffineMomentum, Trajectory};
 pub use well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
 pub use written::{Part, Written};
 
@@ -78,7 +74,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         Some(free) => Some(unconstrained::equations(arena, free, (at_points, &forces), &mut coefficients)?),
         None => None,
     };
-    let Reduced { reduction, equations: reduced, pieces, trajectory, fixed } =
+    let Reduced { reduction, equations: reduced, pieces, trajectory } =
         body.shortest_reduction(arena, rotations, asked, &mut coefficients)?;
     let described = Described {
         energies: &motion.parts,
@@ -112,7 +108,15 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         regularity,
         point,
         quantities,
-        dynamics: Dynamics { full, reduced, reduction, trajectory, fixed, closed_form, dilatation },
+        dynamics: Dynamics {
+            full,
+            reduced,
+            passage: reduction.passage(arena),
+            reduction,
+            trajectory,
+            closed_form,
+            dilatation,
+        },
         description: Facts {
             conserved: Conserved::of(arena, &notation, &moving),
             conserved_at_rest: Conserved::of(arena, &notation, &at_rest),

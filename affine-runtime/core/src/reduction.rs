@@ -306,31 +306,29 @@ pub fn jacobi<const K: usize, T: Real>(mut form: nalgebra::SMatrix<T, K, K>) -> 
 
 /// The traceless part of an affine spin times `1/alpha`, in parts: its symmetric part on and above the diagonal, its
 /// skew part `(X_ba - X_ab)/2`, `b < a`, below.
-pub fn shear_and_turn<const N: usize, T: Real>(spin: &Matrix<N, T>, inverse_alpha: T) -> [[T; N]; N] {
+pub fn shear_and_turn<const N: usize, T: Real>(spin: &Matrix<N, T>, inverse_alpha: T) -> Matrix<N, T> {
     let half = T::from_f64(0.5);
     let mean = spin.trace() / crate::kinematics::integer(N);
-    core::array::from_fn(|a| {
-        core::array::from_fn(|b| {
-            let part = match a.cmp(&b) {
-                core::cmp::Ordering::Less => half * (spin[(a, b)] + spin[(b, a)]),
-                core::cmp::Ordering::Equal => spin[(a, a)] - mean,
-                core::cmp::Ordering::Greater => half * (spin[(b, a)] - spin[(a, b)]),
-            };
-            part * inverse_alpha
-        })
+    Matrix::from_fn(|a, b| {
+        let part = match a.cmp(&b) {
+            core::cmp::Ordering::Less => half * (spin[(a, b)] + spin[(b, a)]),
+            core::cmp::Ordering::Equal => spin[(a, a)] - mean,
+            core::cmp::Ordering::Greater => half * (spin[(b, a)] - spin[(a, b)]),
+        };
+        part * inverse_alpha
     })
 }
 
 /// The affine spin with these parts and this trace.
 pub fn from_shear_and_turn<const N: usize, T: Real>(
-    parts: [[T; N]; N],
+    parts: &Matrix<N, T>,
     inverse_alpha: T,
     trace: T,
 ) -> Matrix<N, T> {
     let mean = trace / crate::kinematics::integer(N);
     Matrix::from_fn(|a, b| match a.cmp(&b) {
-        core::cmp::Ordering::Less => (parts[a][b] + parts[b][a]) / inverse_alpha,
-        core::cmp::Ordering::Equal => parts[a][a] / inverse_alpha + mean,
-        core::cmp::Ordering::Greater => (parts[b][a] - parts[a][b]) / inverse_alpha,
+        core::cmp::Ordering::Less => (parts[(a, b)] + parts[(b, a)]) / inverse_alpha,
+        core::cmp::Ordering::Equal => parts[(a, a)] / inverse_alpha + mean,
+        core::cmp::Ordering::Greater => (parts[(b, a)] - parts[(a, b)]) / inverse_alpha,
     })
 }

@@ -8,6 +8,7 @@ use super::metrics::ChangeOfBases;
 use super::quantities::Quantities;
 use super::well_posed::{Condition, Damping, NumericBlock};
 use super::{second_order, splitting};
+use crate::algebra::passage::Passage;
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::ir::packed::Packed;
@@ -94,10 +95,10 @@ pub struct Dynamics {
     pub reduced: Equations,
     /// How the state was reduced.
     pub reduction: Reduction,
+    /// From a phase point to the reduced state, and back.
+    pub passage: Passage,
     /// The constants of a trajectory as functions of its conserved momenta.
     pub trajectory: Program,
-    /// Components of the affine momentum that are constants of the trajectory while others are state.
-    pub fixed: Vec<Symbol>,
     /// Closed form of the geodesics; whether it needs `p = 0`.
     pub closed_form: Option<(ClosedForm, bool)>,
     /// `1/m`, the stiffness and the scale of the dilatational motion, where it is taken out of the state.

@@ -141,7 +141,6 @@ pub(super) struct Reduced {
     pub(super) equations: Equations,
     pub(super) pieces: Pieces,
     pub(super) trajectory: Program,
-    pub(super) fixed: Vec<Symbol>,
 }
 
 /// The reduction of several with the shortest equations, its programs, and those of its `pieces`.
@@ -195,16 +194,14 @@ fn shortest_reduction(
         ..Batch::default()
     };
     let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
-    let name = |s: &Expr| arena.symbol_of(*s);
     let symbol = |s: &Expr| arena.symbol_of(*s);
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
-    let fixed = reduction.conserved.components.iter().map(name).collect();
     let dependent = match reduction.conserved.affine {
         true => Program::default(),
         false => dependent(arena, &reduction.chart),
     };
     let equations = Equations { groups, dependent, program: fuse(&program) };
-    Some(Reduced { reduction, equations, pieces, trajectory, fixed })
+    Some(Reduced { reduction, equations, pieces, trajectory })
 }
 
 /// What `trajectory` reads: `p` where the state depends on it, and the constant part of the affine momentum.

@@ -12,8 +12,8 @@ use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Aspect, Quantity, Symbol};
 
 use super::batch::batch;
-use super::dilatation::DilatationalMotion;
 use super::prepared::unbound;
+use crate::algebra::passage::DilatationalMotion;
 
 /// The pieces of a reduced motion.
 pub struct Programs {

@@ -1,7 +1,6 @@
 //! Symbols of programs that stand for functions of time and placement.
 
 use crate::ir::Program;
-use crate::mechanics::reduction::carried::Carried;
 use crate::symbol::Quantity;
 
 /// Does a program read the time?
@@ -17,8 +16,6 @@ pub enum VolumeMeasure {
     MeanLogStretch,
     /// `D = exp(q)`.
     Dilatation,
-    /// `1/D`.
-    InverseDilatation,
 }
 
 impl VolumeMeasure {
@@ -28,16 +25,6 @@ impl VolumeMeasure {
         match self {
             Self::MeanLogStretch => Quantity::MeanLogStretch,
             Self::Dilatation => Quantity::Dilatation,
-            Self::InverseDilatation => Quantity::InverseDilatation,
-        }
-    }
-}
-
-impl From<Carried> for VolumeMeasure {
-    fn from(carried: Carried) -> Self {
-        match carried {
-            Carried::InverseDilatation => Self::InverseDilatation,
-            Carried::MeanLogStretch => Self::MeanLogStretch,
         }
     }
 }

@@ -125,7 +125,7 @@ written! {
     }
     Quantities { metric, acceleration, balance; }
     Prepared { coefficients, numeric_blocks, conditions, damping, metrics; }
-    Dynamics { full, reduced, trajectory, dilatation; reduction, fixed, closed_form }
+    Dynamics { full, reduced, trajectory, dilatation; reduction, passage, closed_form }
     Methods { two_polar, taylor, splitting, tangent, second_order, packed, unconstrained; }
     Variational { program; }
     VelocitySide { legendre, kinetic_energy; }

@@ -3,7 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::{Components, Trajectory};
+use crate::algebra::passage::Word;
+use crate::derive::Components;
 use crate::symbol::Quantity;
 
 use super::body::Body;
@@ -14,7 +15,7 @@ use super::point::own_spin;
 /// `geodesic`: the closed form where the model and the scene have one. The trait says that there is none.
 pub(super) fn geodesic(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
-    let drifts = Trajectory::of(context.model).drift;
+    let drifts = context.model.dynamics.passage.constants.iter().any(|constant| constant.name == Word::Drift);
     let f64 = quote!(#rt::f64);
     let none = quote!(::core::option::Option::None);
     let Some((components, needs_rest)) = context.model.geodesics() else { return TokenStream::new() };

@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::context::Context;
-use super::trajectory::{self, Constant, Shape};
-use crate::derive::Trajectory;
+use super::trajectory::{self, Kept};
+use crate::algebra::passage::Extent;
 use crate::spec::Capability;
 
 /// The implementation of the capability.
@@ -16,7 +16,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
     let (generics, types, clause) = context.generics();
     let (t, constants) = (&context.names.scalar, &context.names.constants);
-    let stored = trajectory::constants(context, &Trajectory::of(context.model), &[]);
+    let stored = trajectory::kept(context, &[]);
     let (argument, lane, marker) = if stored.is_empty() {
         (quote!(_constants), quote!(_lane), Some(quote!(scalar: ::core::marker::PhantomData)))
     } else {
@@ -46,25 +46,25 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     }
 }
 
-impl Constant {
+impl Kept {
     /// The field, entry by entry a function of the entry it comes from.
     fn with(&self, context: &Context, from: impl Fn(TokenStream) -> TokenStream) -> TokenStream {
         let (rt, name) = (&context.names.rt, &self.name);
-        let value = match self.shape {
-            Shape::Number => from(quote!(#name)),
-            Shape::Vector => {
+        let value = match self.extent {
+            Extent::Number => from(quote!(#name)),
+            Extent::Vector => {
                 let entry = from(quote!(#name[row]));
                 quote!(#rt::Vector::from_fn(|row, _| #entry))
             }
-            Shape::Matrix => {
+            Extent::Matrix => {
                 let entry = from(quote!(#name[(row, column)]));
                 quote!(#rt::Matrix::from_fn(|row, column| #entry))
             }
-            Shape::List(_) => {
+            Extent::List(_) => {
                 let entry = from(quote!(#name[k]));
                 quote!(::core::array::from_fn(|k| #entry))
             }
-            Shape::Dilatation => quote!(#rt::Breathing::none()),
+            Extent::Dilatation => quote!(#rt::Breathing::none()),
         };
         quote!(#name: #value)
     }

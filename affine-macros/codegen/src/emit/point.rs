@@ -132,12 +132,11 @@ pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream 
 }
 
 /// The statement that binds a function of `det phi`.
-pub(super) fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
-    let (rt, t, symbol) = (&context.names.rt, &context.names.scalar, ident(&measure.quantity().into()));
+fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
+    let (rt, symbol) = (&context.names.rt, ident(&measure.quantity().into()));
     let value = match measure {
         VolumeMeasure::MeanLogStretch => quote!(#rt::mean_log_stretch(#phi)),
         VolumeMeasure::Dilatation => quote!(#rt::dilatation(#phi)),
-        VolumeMeasure::InverseDilatation => quote!(#t::one() / #rt::dilatation(#phi)),
     };
     quote!(let #symbol = #value;)
 }

@@ -1,30 +1,25 @@
 //! Reduction, reduced equations and expansion.
 
-mod carried;
-mod expansion;
 mod plain;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::{AffineMomentum, Components, Trajectory};
-use crate::ir::Program;
-use crate::symbol::Quantity;
+use crate::algebra::passage::{Passage, Statement, Tensor, Word};
+use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
-use super::number::Number;
 use super::parametric::{Evaluation, Method, asks_again, equations_head};
-use super::pattern::{components, entries, identifiers, pattern, reads, table_pattern, time};
-use super::point::{projected, spin};
-use super::separated;
-use super::trajectory::{self, Constant};
+use super::passage::{any, components_of, programs, statements, value, variable};
+use super::pattern::{identifiers, pattern, reads, time};
+use super::point::wrapper;
+use super::trajectory::{self, Kept};
 
 /// The constants of a trajectory as a struct.
 pub(super) fn constants_type(context: &Context) -> TokenStream {
     let (name, t) = (&context.names.constants, &context.names.scalar);
-    let constants = trajectory::constants(context, &Trajectory::of(context.model), &[]);
-    let fields: TokenStream = constants.iter().map(|constant| constant.field(context)).collect();
+    let fields: TokenStream = trajectory::kept(context, &[]).iter().map(|kept| kept.field(context)).collect();
     let visibility = &context.spec.item.visibility;
     let doc = format!(" What one trajectory of [`{}`] conserves.", context.names.model);
     let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
@@ -37,65 +32,40 @@ pub(super) fn constants_type(context: &Context) -> TokenStream {
 
 /// `reduce`, `reduced_equations`, `expand`, `renewed`.
 pub(super) fn methods(context: &Context) -> [Method; 4] {
-    let parts = Trajectory::of(context.model);
-    let is_plain = plain::is_plain(context, &parts);
+    let passage = &context.model.dynamics.passage;
+    let is_plain = plain::is_plain(context, passage);
     let (reduce, equations, expand) = match is_plain {
-        true => (plain::reduce(context, &parts), plain::equations(context), plain::expand(context)),
-        false => {
-            (reduce(context, &parts), reduced_equations(context, &parts), expansion::expand(context, &parts))
-        }
+        true => (plain::reduce(context), plain::equations(context), plain::expand(context)),
+        false => (reduce(context, passage), reduced_equations(context), expand(context, passage)),
     };
-    let renewed = (!is_plain && !parts.carried.is_empty()).then(|| carried::renewed(context, &parts.carried));
+    let renewed = (!is_plain && !passage.renewed.is_empty()).then(|| renewed(context, &passage.renewed));
     let equations =
         if asks_again(context) { Method::Evaluation(equations) } else { Method::Other(equations) };
     let renewed = Method::Other(renewed.unwrap_or_default());
     [Method::Evaluation(reduce), equations, Method::Evaluation(expand), renewed]
 }
 
-/// The affine momentum of the reduced chart at `point`.
-fn chart_momentum(context: &Context, parts: &Trajectory) -> TokenStream {
-    let rt = &context.names.rt;
-    match parts.momentum {
-        AffineMomentum::Spin(components) => spin(context, components),
-        AffineMomentum::Total => projected(context, quote!(#rt::total_affine_momentum(point))),
-    }
-}
-
-fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
+/// `reduce`: what moves in closed form is taken out, and space is turned.
+fn reduce(context: &Context, passage: &Passage) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
-    let momentum = chart_momentum(context, parts);
-    let mut lets = TokenStream::new();
-    if parts.linear || parts.pushed && !parts.comoving {
-        lets.extend(quote!(let p = #rt::Phase::p(point);));
-    }
-    lets.extend(quote!(let momentum = #momentum;));
-    if parts.turn {
-        lets.extend(match (parts.momentum, parts.conserved) {
-            (AffineMomentum::Total, true) => {
-                quote!(let turn = #rt::turn(&p, ::core::option::Option::Some(&momentum));)
-            }
-            _ => quote!(let turn = #rt::turn(&p, ::core::option::Option::None);),
-        });
-    }
-    lets.extend(match parts.dilatation {
-        Some(motion) => separated::split(context, motion),
-        None => bind_state(context, parts),
-    });
-    lets.extend(carried::computed(context, &parts.carried, &quote!(#rt::Phase::phi(point))));
-    let body = context.generic(&context.model.dynamics.trajectory, Coefficients::Given);
-    let (coefficients, results) = (body.lets, body.results);
-    let whirl = whirl(context, parts);
     let reduced = &context.model.dynamics.reduced;
+    let program = &context.model.dynamics.trajectory;
+    let used = [reduced.symbols(), program.inputs(), passage.fixed()].concat();
+    let lets = statements(context, &passage.inward, &used);
+    let Body { lets: coefficients, results } = context.generic(program, Coefficients::Given);
     let work = reduced.has(Quantity::Work).then(|| quote!(let work = #t::zero();));
     let state = identifiers(&reduced.symbols());
-    let kept = trajectory::constants(context, parts, &results);
-    let mut fields: TokenStream = kept.iter().map(Constant::at_the_start).collect();
+    let mut fields: TokenStream =
+        trajectory::kept(context, &results).iter().map(Kept::at_the_start).collect();
     if fields.is_empty() {
         fields = quote!(scalar: ::core::marker::PhantomData);
     }
-    let origin = if parts.origin || parts.dilatation.is_some() { quote!(t0) } else { quote!(_t0) };
+    let starts = passage.constants.iter().any(|constant| constant.name == Word::Start)
+        || any(&passage.inward, |part| *part == Tensor::Variable(Word::Start));
+    let origin = if starts { quote!(t0) } else { quote!(_t0) };
     let inward = context.inward(Coefficients::Given);
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", &programs(context, parts));
+    let evaluated = [vec![program.clone()], programs(context, &passage.inward)].concat();
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", &evaluated);
     quote! {
         fn #name<#t: #rt::Real>(
             &self,
@@ -106,98 +76,22 @@ fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
             #inward
             #lets
             #coefficients
-            #whirl
             #work
             ([#(#state),*], #constants { #fields })
         }
     }
 }
 
-/// What `reduce` evaluates.
-fn programs(context: &Context, parts: &Trajectory) -> Vec<Program> {
-    let model = context.model;
-    let of = |program: &Option<Program>, factor: Quantity, wanted: bool| {
-        program.as_ref().filter(|_| wanted).map(|program| program.only(&factor.into()))
-    };
-    let dilates = parts.dilatation.is_some();
-    [
-        Some(model.dynamics.trajectory.clone()),
-        of(&model.point.isotropic, Quantity::InverseMu, parts.rotation.is_some()),
-        of(&model.point.isotropic, Quantity::InverseAlpha, dilates),
-        of(&model.point.mass, Quantity::InverseMass, parts.drift),
-        model.dynamics.dilatation.clone().filter(|_| dilates),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
-/// Components of state and momenta in turned space, as variables.
-fn bind_state(context: &Context, parts: &Trajectory) -> TokenStream {
-    let (rt, n) = (&context.names.rt, context.model.dim);
-    let mut used = context.model.dynamics.reduced.symbols();
-    used.extend(context.model.dynamics.trajectory.inputs());
-    used.extend(parts.fixed.clone());
-    let turned = |value: TokenStream| if parts.turn { quote!((turn * #value)) } else { value };
-    let mut lets = TokenStream::new();
-    if parts.placed {
-        let momentum = match parts.comoving {
-            true => (Quantity::ComovingLinearMomentum, quote!(#rt::Phase::p_hat(point).0.0)),
-            false => (Quantity::LinearMomentum, turned(quote!(p))),
-        };
-        for (of, value) in [(Quantity::Position, turned(quote!(#rt::Phase::x(point)))), momentum] {
-            let names = components(of, n);
-            if reads(&used, &names) {
-                let bound = pattern(&names, &used);
-                lets.extend(quote!(let #bound = #rt::components(&#value);));
-            }
-        }
-    }
-    let phi = turned(quote!(#rt::Phase::phi(point)));
-    let phi_rows = table_pattern(&entries(Quantity::Placement, n), &used);
-    lets.extend(if parts.turn {
-        quote!(let #phi_rows = #rt::rows(&#phi);)
-    } else {
-        quote!(let #phi_rows = #rt::rows(#phi);)
-    });
-    let names = entries(parts.momentum_entries, n);
-    if reads(&used, &names.concat()) {
-        let rows = table_pattern(&names, &used);
-        let value = match (parts.turn, parts.momentum) {
-            (false, _) | (_, AffineMomentum::Spin(Components::Comoving)) => quote!(momentum),
-            (true, AffineMomentum::Spin(Components::TwoPoint)) => quote!((momentum * turn.transpose())),
-            (true, _) => quote!((turn * momentum * turn.transpose())),
-        };
-        lets.extend(quote!(let #rows = #rt::rows(&#value);));
-    }
-    lets
-}
-
-/// Generators of what moves in closed form: `-W/mu`, `p/m`.
-fn whirl(context: &Context, parts: &Trajectory) -> TokenStream {
-    let t = &context.names.scalar;
-    let mut lets = TokenStream::new();
-    if let (Some(side), Some(program)) = (parts.rotation, &context.model.point.isotropic) {
-        let spin = spin(context, side);
-        let (inner, whirl) = context.times(quote!(skew), (program, Quantity::InverseMu), Number::Generic(t));
-        lets.extend(quote!(#inner let spin = #spin; let skew = spin.transpose() - spin; let whirl = #whirl;));
-    }
-    if let (true, Some(program)) = (parts.drift, &context.model.point.mass) {
-        let (inner, drift) = context.times(quote!(p), (program, Quantity::InverseMass), Number::Generic(t));
-        lets.extend(quote!(#inner let drift = #drift;));
-    }
-    lets
-}
-
-fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
+fn reduced_equations(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.dynamics.reduced.program;
     let used = program.inputs();
     let all = context.model.dynamics.reduced.symbols();
     let bound = pattern(&all, &used);
-    let coefficients = pattern(&trajectory::all(context), &used);
-    let read = (parts.coefficients > 0).then(|| quote!(let #coefficients = constants.coefficients;));
-    let constants = if parts.coefficients > 0 { quote!(constants) } else { quote!(_constants) };
+    let kept = trajectory::all(context);
+    let coefficients = pattern(&kept, &used);
+    let read = (!kept.is_empty()).then(|| quote!(let #coefficients = constants.coefficients;));
+    let constants = if kept.is_empty() { quote!(_constants) } else { quote!(constants) };
     let reads_state = reads(&used, &all);
     let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
     let bind = reads_state.then(|| quote!(let #bound = *reduced;));
@@ -218,6 +112,88 @@ fn reduced_equations(context: &Context, parts: &Trajectory) -> TokenStream {
             #bind
             #lets
             [#(#results),*]
+        }
+    }
+}
+
+/// `expand`: what moves in closed form is put back, and space turned back.
+fn expand(context: &Context, passage: &Passage) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let all = context.model.dynamics.reduced.symbols();
+    // No phase point holds the work, and what is carried along follows from phi.
+    let follows = |symbol: &Symbol| {
+        *symbol == Quantity::Work.into()
+            || passage.renewed.iter().any(|one| matches!(one, Statement::Symbol(known, _) if known == symbol))
+    };
+    let needed: Vec<Symbol> = all.iter().filter(|symbol| !follows(symbol)).cloned().collect();
+    let bound = pattern(&all, &needed);
+    let lets = statements(context, &passage.outward, &all);
+    let spin = passage.momentum.as_ref().map(|(quantity, momentum)| {
+        let (wrapper, momentum) = (wrapper(context, components_of(*quantity)), value(context, momentum));
+        quote!(#wrapper(#momentum))
+    });
+    let centre = match &passage.centre {
+        Some(both) => {
+            let fields = [Word::Position, Word::LinearMomentum].into_iter().zip(both);
+            let fields = fields.map(|(word, of)| field(context, word, of));
+            quote!(#rt::Centre { #(#fields),* })
+        }
+        None => quote!(#rt::Pinned),
+    };
+    let of_point =
+        passage.momentum.iter().map(|(_, momentum)| momentum).chain(passage.centre.iter().flatten());
+    let outside = of_point.map(|value| Statement::Named(Word::Momentum, value.clone()));
+    let read: Vec<Statement> = passage.outward.iter().cloned().chain(outside).collect();
+    let time = if any(&read, |part| *part == Tensor::Time) { quote!(t) } else { quote!(_t) };
+    let constants = match any(&read, |part| matches!(part, Tensor::Constant(_))) {
+        true => quote!(constants),
+        false => quote!(_constants),
+    };
+    let point = quote!(#rt::point(phi, #spin, #centre));
+    let point = context.outward(&quote!(#t), point, Coefficients::Given);
+    let evaluated = programs(context, &passage.outward);
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", &evaluated);
+    quote! {
+        fn #name<#t: #rt::Real>(
+            &self,
+            #parameter
+            #time: #t,
+            #constants: &Self::Constants<#t>,
+            reduced: &Self::Reduced<#t>,
+        ) -> Self::Point<#t> {
+            let #bound = *reduced;
+            #lets
+            #point
+        }
+    }
+}
+
+/// A field of a struct, whose name stands alone where the value is a variable of that name.
+fn field(context: &Context, word: Word, of: &Tensor) -> TokenStream {
+    let name = variable(word);
+    if *of == Tensor::Variable(word) {
+        return quote!(#name);
+    }
+    let value = value(context, of);
+    quote!(#name: #value)
+}
+
+/// The state with what it carries along from the rest of it.
+fn renewed(context: &Context, carried: &[Statement]) -> TokenStream {
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let all = context.model.dynamics.reduced.symbols();
+    let names = identifiers(&all);
+    let is_carried = |symbol: &Symbol| {
+        carried.iter().any(|one| matches!(one, Statement::Symbol(known, _) if known == symbol))
+    };
+    let kept: Vec<Symbol> = all.iter().filter(|symbol| !is_carried(symbol)).cloned().collect();
+    let bound = pattern(&all, &kept);
+    let lets = statements(context, carried, &all);
+    quote! {
+        fn renewed<#t: #rt::Real>(&self, reduced: &Self::Reduced<#t>) -> Self::Reduced<#t> {
+            let #bound = *reduced;
+            #lets
+            [#(#names),*]
         }
     }
 }

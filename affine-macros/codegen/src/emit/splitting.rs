@@ -3,16 +3,17 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use crate::algebra::passage::DilatationalMotion;
+use crate::derive::reads_time;
 use crate::derive::splitting::{FlowProgram, Programs};
-use crate::derive::{DilatationalMotion, reads_time};
 use crate::ir::{Op, Program, Value};
 use crate::symbol::Symbol;
 
 use super::body::{Body, inner};
 use super::context::{Coefficients, Context};
 use super::number::number;
+use super::passage::closed_form;
 use super::pattern::{identifiers, pattern, reads, table};
-use super::separated::closed_form;
 use super::trajectory::{self, coefficients};
 
 /// The implementation of the capability.

@@ -17,6 +17,7 @@ pub mod conserved;
 pub mod dilatation;
 pub mod drift;
 pub mod left_out;
+mod passing;
 pub mod rotation;
 pub mod turn;
 

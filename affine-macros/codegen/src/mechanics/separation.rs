@@ -1,5 +1,6 @@
 //! A dilatation that moves by itself, `q'' = -U_dil'(q)/m`, in closed form.
 
+use crate::algebra::passage::DilatationalMotion;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -28,6 +29,16 @@ pub enum Slope {
         /// Half the power of `D`.
         scale: Rational,
     },
+}
+
+impl From<&Slope> for DilatationalMotion {
+    fn from(slope: &Slope) -> Self {
+        match slope {
+            Slope::Zero => Self::Free,
+            Slope::Linear(_) => Self::Harmonic,
+            Slope::Hyperbolic { .. } => Self::Hyperbolic,
+        }
+    }
 }
 
 impl Slope {

@@ -135,7 +135,7 @@ fn constants(model: &Model) -> Vec<String> {
         let stem = model.dynamics.reduction.chart.momentum.quantity().stem();
         list.extend((1..=n).flat_map(|i| (1..=n).map(move |j| format!("{stem}_{i}{j}"))));
     }
-    list.extend(names(&model.dynamics.fixed));
+    list.extend(names(&model.dynamics.passage.fixed()));
     list
 }
 

@@ -5,26 +5,22 @@ use std::slice;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::Trajectory;
+use crate::algebra::passage::Passage;
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
 use crate::emit::parametric::{Evaluation, equations_head};
 
 /// Are the reduced equations those of the plain array, and the constants at most their coefficients?
-pub(super) fn is_plain(context: &Context, parts: &Trajectory) -> bool {
-    let nothing_moves_apart = !parts.origin && !parts.turn && parts.dilatation.is_none();
-    let nothing_is_constant = !parts.linear && !parts.conserved && parts.fixed.is_empty();
-    context.model.dynamics.full == context.model.dynamics.reduced
-        && nothing_moves_apart
-        && nothing_is_constant
+pub(super) fn is_plain(context: &Context, passage: &Passage) -> bool {
+    context.model.dynamics.full == context.model.dynamics.reduced && passage.constants.is_empty()
 }
 
 /// `reduce`: the plain array.
-pub(super) fn reduce(context: &Context, parts: &Trajectory) -> TokenStream {
+pub(super) fn reduce(context: &Context) -> TokenStream {
     let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
     let program = &context.model.dynamics.trajectory;
     let Body { lets, results } = context.generic(program, Coefficients::Given);
-    let fields = match parts.coefficients {
+    let fields = match results.len() {
         0 => quote!(scalar: ::core::marker::PhantomData),
         _ => quote!(coefficients: [#(#results),*]),
     };

@@ -3,6 +3,7 @@
 
 mod isochoric;
 
+use crate::algebra::passage::{MatrixFunction, Statement, Tensor};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use crate::mechanics::body::Body;
@@ -30,6 +31,15 @@ impl Carried {
             Self::InverseDilatation => Quantity::InverseDilatation,
             Self::MeanLogStretch => Quantity::MeanLogStretch,
         }
+    }
+
+    /// What it is at a placement.
+    pub(super) fn at(self, placement: Tensor) -> Statement {
+        let function = match self {
+            Self::InverseDilatation => MatrixFunction::InverseDilatation,
+            Self::MeanLogStretch => MatrixFunction::MeanLogStretch,
+        };
+        Statement::Symbol(self.quantity().into(), placement.under(function))
     }
 
     pub(super) fn left_out(self) -> LeftOut {

@@ -1,8 +1,10 @@
 //! Momenta that are conserved: they are constants of a trajectory.
 
-use crate::algebra::{Expr, Polynomial};
+use crate::algebra::passage::{Constant, Extent, Tensor, Word};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::System;
+use crate::symbol::Symbol;
 
 use super::left_out::{LeftOut, Scope};
 
@@ -41,6 +43,23 @@ impl Conserved {
             !still
         });
         self
+    }
+
+    /// Components that are constants, while others are state.
+    pub(super) fn fixed(&self, arena: &Arena) -> Vec<Symbol> {
+        self.components.iter().map(|component| arena.symbol_of(*component)).collect()
+    }
+
+    /// What is kept of the affine momentum.
+    pub(super) fn constants(&self, arena: &Arena) -> Vec<Constant> {
+        let fixed = self.fixed(arena);
+        let names: Vec<String> = fixed.iter().map(Symbol::to_string).collect();
+        let meaning = format!("Conserved components of the affine momentum: {}.", names.join(", "));
+        let whole = Constant::new(Word::Momentum, Extent::Matrix, "Conserved affine momentum.");
+        let components = Constant::new(Word::Fixed, Extent::List(fixed.len()), meaning);
+        let some = !fixed.is_empty();
+        let components = some.then(|| components.starting(Tensor::List(fixed)));
+        self.affine.then_some(whole).into_iter().chain(components).collect()
     }
 
     /// `turns` where a flow that is applied exactly turns the affine momentum of the chart.

@@ -9,6 +9,8 @@
 //!
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
+use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
+use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -16,7 +18,7 @@ use crate::mechanics::equations::{Load, System};
 use crate::mechanics::hamiltonian::Isotropic;
 use crate::mechanics::loads::of_potential;
 use crate::mechanics::separation::{Separation, Slope};
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::left_out::{LeftOut, Scope};
 
@@ -73,6 +75,46 @@ pub(super) fn left_out(motion: &Separation, chart: &Chart, rests: bool) -> Vec<L
     [dilatation].into_iter().chain(rests.then(|| Scope::Reduction.without("w: conserved"))).collect()
 }
 
+/// `Psi`, the parts of `O`, and the closed form; `fixed` are parts that are constants.
+pub(super) fn pass(motion: &Separation, n: usize, fixed: &[Symbol], passage: &mut Passage) {
+    let [momentum, q, start, p_q] =
+        [Word::Momentum, Word::MeanLogStretch, Word::Start, Word::DilatationalMomentum].map(Tensor::Variable);
+    let placement = || Tensor::OfPoint(Quantity::Placement);
+    let trace = momentum.clone().under(MatrixFunction::Trace);
+    let path = MatrixFunction::Dilatation((&motion.slope).into());
+    let path = Tensor::Applied(path, vec![start, q.clone(), trace, Tensor::OfDilatation]);
+    let inverse_alpha = || Tensor::Factor(Quantity::InverseAlpha);
+    let psi: Vec<Vec<Symbol>> = table(n, |i, a| Quantity::IsochoricPlacement.at([i + 1, a + 1]));
+    let parts: Vec<Vec<Symbol>> = table(n, part);
+    passage.inward.extend([
+        Statement::Named(Word::MeanLogStretch, placement().under(MatrixFunction::MeanLogStretch)),
+        Statement::Named(Word::Dilatation, path),
+        Statement::Entries(psi.clone(), placement().under(MatrixFunction::Isochoric)),
+        Statement::Entries(
+            parts.clone(),
+            Tensor::Applied(MatrixFunction::ShearAndTurn, vec![momentum, inverse_alpha()]),
+        ),
+    ]);
+    let meaning = "The motion of `q = ln(det phi)/n` and its momentum `tr Sigma`.";
+    passage.constants.push(Constant::new(Word::Dilatation, Extent::Dilatation, meaning));
+    let at =
+        Tensor::Applied(MatrixFunction::DilatationAt, vec![Tensor::Constant(Word::Dilatation), Tensor::Time]);
+    let spread = Tensor::Matrix(psi).times(q.under(MatrixFunction::Exp));
+    passage.outward.extend([
+        Statement::Pair([Word::MeanLogStretch, Word::DilatationalMomentum], at),
+        Statement::Named(Word::Placement, spread),
+    ]);
+    let known = Tensor::Constant(Word::Fixed);
+    passage.outward.extend((!fixed.is_empty()).then(|| Statement::Listed(fixed.to_vec(), known)));
+    let above = (0..n - 1).map(|a| part(a, a)).collect();
+    let momentum =
+        Tensor::Applied(MatrixFunction::FromShearAndTurn, vec![Tensor::Matrix(parts), inverse_alpha(), p_q]);
+    passage.outward.extend([
+        Statement::Symbol(part(n - 1, n - 1), Tensor::NegativeSum(above)),
+        Statement::Named(Word::Momentum, momentum),
+    ]);
+}
+
 /// The system of `Psi` and `O` in place of `phi` and an affine spin; `load` are the forces of the potential in the
 /// chart, `casimirs` the kinetic energy without the rotation that commutes. `None` where the forces still depend on
 /// the dilatation.
@@ -113,7 +155,7 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
         };
         rate = rate.mul(&casimirs.casimir2);
         if (a, b) != (n - 1, n - 1) {
-            system.rates.push((Coordinate::M(a, b), part(arena, a, b), rate));
+            system.rates.push((Coordinate::M(a, b), arena.symbol(part(a, b)), rate));
         }
     }
     let system = system.tidied(arena);
@@ -164,7 +206,7 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
 fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
     let mut rows = vec![vec![Polynomial::zero(); n]; n];
     for (a, b) in pairs(n) {
-        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(part(arena, a, b));
+        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(arena.symbol(part(a, b)));
         rows[a][b] = match (a < b, a == b) {
             (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
             (_, true) if a + 1 < n => symbol(arena, a, a),
@@ -180,12 +222,8 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
 }
 
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
-fn part(arena: &mut Arena, a: usize, b: usize) -> Expr {
-    if a <= b {
-        arena.symbol(Quantity::Shear.at([a + 1, b + 1]))
-    } else {
-        arena.symbol(Quantity::Turn.at([b + 1, a + 1]))
-    }
+fn part(a: usize, b: usize) -> Symbol {
+    if a <= b { Quantity::Shear.at([a + 1, b + 1]) } else { Quantity::Turn.at([b + 1, a + 1]) }
 }
 
 fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {

@@ -1,7 +1,9 @@
 //! A centre of mass that moves freely: it is where it was, and `t p/m` further.
 
+use crate::algebra::passage::{Constant, Extent, Passage, Statement, Tensor, Word};
 use crate::algebra::{Arena, Polynomial};
 use crate::mechanics::body::Body;
+use crate::symbol::Quantity;
 
 use super::left_out::{LeftOut, Scope};
 
@@ -21,6 +23,21 @@ impl Drift {
             && body.forces.leave_the_centre();
         let reciprocal = arena.pow(masses.space.filter(|_| free)?, -1)?;
         Some(Self { inverse_mass: Polynomial::normal_form(arena, reciprocal) })
+    }
+
+    /// `x0` and `p/m` are kept.
+    pub(super) fn pass(passage: &mut Passage) {
+        let velocity =
+            Tensor::Scaled(Box::new(Tensor::Variable(Word::LinearMomentum)), Quantity::InverseMass);
+        passage.inward.push(Statement::Named(Word::Drift, velocity));
+        let start = Constant::new(Word::StartPosition, Extent::Vector, "Centre of mass at the start.");
+        passage.constants.extend([
+            start.starting(Tensor::OfPoint(Quantity::Position)),
+            Constant::new(Word::Drift, Extent::Vector, "Velocity `p/m` of the centre of mass."),
+        ]);
+        let way = Tensor::Constant(Word::Drift).times(Tensor::Variable(Word::Elapsed));
+        let place = Tensor::Constant(Word::StartPosition).plus(way);
+        passage.outward.push(Statement::Named(Word::Position, place));
     }
 
     pub(super) fn left_out() -> LeftOut {

@@ -1,8 +1,10 @@
 //! Space turned so that a conserved `p` lies along the first axis, and `I(O)_13 = 0` where `I(O)` is conserved.
 
+use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
 use crate::algebra::{Expr, Polynomial};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::equations::System;
+use crate::symbol::Quantity;
 
 use super::conserved::Conserved;
 use super::left_out::{LeftOut, Scope};
@@ -26,6 +28,44 @@ impl Turn {
     /// A system without what vanishes.
     pub(super) fn taken(&self, system: &System) -> System {
         system.substitute(&|atom| self.vanishing.contains(&atom).then(Polynomial::zero))
+    }
+
+    /// The rotation is kept.
+    pub(super) fn pass(chart: &Chart, conserved: &Conserved, passage: &mut Passage) {
+        let [p, momentum] = [Word::LinearMomentum, Word::Momentum].map(Tensor::Variable);
+        let turn = match chart.momentum == Momentum::Total && conserved.affine {
+            true => Tensor::Applied(MatrixFunction::TurnOfBoth, vec![p, momentum]),
+            false => p.under(MatrixFunction::Turn),
+        };
+        passage.inward.push(Statement::Named(Word::Turn, turn));
+        let meaning = "Turns space so that `p` lies along the first axis.";
+        passage.constants.push(Constant::new(Word::Turn, Extent::Matrix, meaning));
+    }
+
+    /// A quantity in turned space.
+    pub(super) fn turned(quantity: Quantity, value: Tensor) -> Tensor {
+        let turn = || Tensor::Variable(Word::Turn);
+        match quantity {
+            Quantity::ComovingAffineSpin => value,
+            Quantity::CanonicalMomentum => value.times(turn().transposed()),
+            Quantity::AffineSpin | Quantity::TotalAffineMomentum => {
+                turn().times(value).times(turn().transposed())
+            }
+            _ => turn().times(value),
+        }
+    }
+
+    /// And back.
+    pub(super) fn turned_back(quantity: Quantity, value: Tensor) -> Tensor {
+        let turn = || Tensor::Constant(Word::Turn);
+        match quantity {
+            Quantity::ComovingAffineSpin => value,
+            Quantity::CanonicalMomentum => value.times(turn()),
+            Quantity::AffineSpin | Quantity::TotalAffineMomentum => {
+                turn().transposed_times(value).times(turn())
+            }
+            _ => turn().transposed_times(value),
+        }
     }
 
     pub(super) fn left_out() -> LeftOut {
