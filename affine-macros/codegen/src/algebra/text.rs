@@ -77,12 +77,7 @@ impl Arena {
     ) -> String {
         let mut text = String::new();
         for (term, c) in terms {
-            text.push_str(match (c.is_negative(), text.is_empty()) {
-                (true, true) => "-",
-                (true, false) => " - ",
-                (false, true) => "",
-                (false, false) => " + ",
-            });
+            text.push_str(sign(c.is_negative(), text.is_empty()));
             text.push_str(&self.multiple_text(&c.abs(), *term, name));
         }
         if !constant.is_zero() {
@@ -134,6 +129,17 @@ impl Arena {
             }
         };
         factors.iter().map(power).collect()
+    }
+}
+
+/// The sign in front of a summand, of which it may be the first.
+#[must_use]
+pub fn sign(negative: bool, first: bool) -> &'static str {
+    match (negative, first) {
+        (true, true) => "-",
+        (true, false) => " - ",
+        (false, true) => "",
+        (false, false) => " + ",
     }
 }
 

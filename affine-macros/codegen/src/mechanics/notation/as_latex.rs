@@ -4,6 +4,7 @@ use super::latex::{bracketed, latex};
 use super::names::Notation;
 use super::sentence::{Exponent, Sentence, Summand, is_sum};
 use crate::algebra::Arena;
+use crate::algebra::text::sign;
 
 impl Notation<'_> {
     /// A sentence in LaTeX.
@@ -94,12 +95,7 @@ impl Notation<'_> {
         }
         let mut sum = String::new();
         for Summand { negative, value } in summands {
-            sum.push_str(match (*negative, sum.is_empty()) {
-                (true, true) => "-",
-                (true, false) => " - ",
-                (false, true) => "",
-                (false, false) => " + ",
-            });
+            sum.push_str(sign(*negative, sum.is_empty()));
             sum.push_str(&self.among(arena, value, value.is_sum()));
         }
         sum
