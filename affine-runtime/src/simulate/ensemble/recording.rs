@@ -4,16 +4,15 @@ use super::asked::{Asked, Start};
 use crate::integrate::Statistics;
 use crate::model::{Handle, Model};
 use crate::simulate::checkpoint::Place;
-use crate::simulate::follow::WITHIN_A_STEP;
 use crate::simulate::mechanics::Mechanics;
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::check;
 use crate::simulate::recorder::{Recorder, Turn};
 use crate::simulate::trajectory::Trajectory;
-use crate::simulate::watcher::{At, Sampling, Watcher};
+use crate::simulate::watcher::{At, Sampling, WITHIN_A_STEP, Watcher};
 use crate::state::Phase;
 
-const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, rate: 0.0 };
+const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, by_ends: true, rate: 0.0 };
 
 /// How a body goes on after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
