@@ -74,8 +74,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let mut guard = Guard::begin(model, motion, (since, &start), (asked, tolerance))?;
         let is_watched = self.progress.is_some() || self.is_watched();
         let equal = asked.step().is_some();
-        let sampling =
-            Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, by_ends: !equal, rate: 0.0 };
+        let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, by_ends: !equal, rate: 0.0 };
         while !motion.is_finished() {
             self.steps = cost + motion.statistics().steps;
             if self.steps >= self.max_steps {

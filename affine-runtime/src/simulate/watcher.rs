@@ -204,14 +204,17 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         let events = self.events.iter().zip(&self.memory).zip(&mut self.end.values);
         events.into_iter().all(|((event, memory), value)| {
             *value = event.at(t, point, bases);
-            let is_left = |to| matches!(memory.standing, Standing::On(from) if from == to || !event.counts(to));
+            let is_left =
+                |to| matches!(memory.standing, Standing::On(from) if from == to || !event.counts(to));
             Side::of(*value).is_some_and(is_left)
         })
     }
 
     /// The cubic between the ends of a step tells that no function comes near zero, or goes there and back.
     fn are_told(&mut self, model: &dyn Mechanics<N, P>) -> bool {
-        let Self { events, bases, begin, end, ways, knots: Some([from, to]), .. } = self else { return false };
+        let Self { events, bases, begin, end, ways, knots: Some([from, to]), .. } = self else {
+            return false;
+        };
         let (t, bases) = (begin.t, bases.as_ref());
         ways.clear();
         ways.extend(begin.values.iter().zip(&end.values).map(|(begin, end)| Told::between(*begin, *end)));
@@ -219,8 +222,8 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             let t = t + part * (end.t - t);
             events.iter().zip(ways.iter_mut()).all(|(event, way)| way.goes(event.at(t, point, bases)))
         };
-        let is_cubic = begin.t == from.t
-            && model.on_cubic(Cubic { begin: from, end: to }, &PARTS, &mut are_numbers);
+        let is_cubic =
+            begin.t == from.t && model.on_cubic(Cubic { begin: from, end: to }, &PARTS, &mut are_numbers);
         is_cubic && ways.iter_mut().zip(&end.values).all(|(way, end)| way.ends_plainly(*end))
     }
 
