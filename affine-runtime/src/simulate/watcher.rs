@@ -1,10 +1,11 @@
 //! Changes of sign between samples.
 
+mod passes;
+
 use super::accumulation::Changes;
-use super::cubic::{Cubic, Knot};
+use super::cubic::Knot;
 use super::departure::departure;
 use super::event::{Action, Direction, Event};
-use super::mechanics::Mechanics;
 use super::motion::WithWork;
 use super::point::check;
 use super::root::root;
@@ -13,6 +14,7 @@ use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
+use passes::Told;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
 const TURN: f64 = 0.5;
@@ -25,9 +27,6 @@ const ROUNDED: f64 = 1e-12;
 const AT_REST: f64 = 1e-6;
 /// Equal parts of a step at whose ends functions are looked at, where its length follows the error.
 pub(super) const WITHIN_A_STEP: u32 = 4;
-const PARTS: [f64; WITHIN_A_STEP as usize - 1] = [0.25, 0.5, 0.75];
-/// Part of what a function changes by in a step: a cubic tells that it is further than that from zero.
-const NEAR_ZERO: f64 = 0.125;
 
 /// The phase point at a time, and the work.
 pub(super) type At<'m, P> = dyn FnMut(f64) -> Result<WithWork<P>, Reason> + 'm;
@@ -70,43 +69,6 @@ struct Sample {
     values: Vec<f64>,
     /// What angles and log-stretches change by in a unit of time.
     rate: f64,
-}
-
-/// The way of a function through a step, by its distances beyond zero: positive on the side of the end.
-#[derive(Clone, Copy)]
-struct Told {
-    side: f64,
-    begin: f64,
-    last: f64,
-    least: f64,
-    most: f64,
-    /// The least rise from one sample to the next.
-    rise: f64,
-}
-
-impl Told {
-    fn between(begin: f64, end: f64) -> Self {
-        let side = end.signum();
-        let begin = begin * side;
-        Self { side, begin, last: begin, least: begin, most: begin, rise: f64::INFINITY }
-    }
-
-    /// To its next value, if that is a number.
-    fn goes(&mut self, value: f64) -> bool {
-        let distance = value * self.side;
-        let rise = distance - self.last;
-        self.rise = if rise < self.rise { rise } else { self.rise };
-        self.least = if distance < self.least { distance } else { self.least };
-        self.most = if distance > self.most { distance } else { self.most };
-        self.last = distance;
-        !distance.is_nan()
-    }
-
-    /// It does not come near zero, or goes through it without turning.
-    fn ends_plainly(&mut self, value: f64) -> bool {
-        let near = |told: &Self| NEAR_ZERO * (told.most - told.least);
-        self.goes(value) && if self.begin > 0.0 { self.least > near(self) } else { self.rise > near(self) }
-    }
 }
 
 /// The events of a run between two samples.
@@ -162,69 +124,6 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         };
         self.begin = Sample { t, values, rate };
         self.passed = None;
-    }
-
-    /// The same, where steps follow: what [`passes`](Self::passes) has to know of the motion there.
-    pub(super) fn begin_steps(&mut self, model: &dyn Mechanics<N, P>, point: &P) {
-        let knots = self.knots.get_or_insert_with(|| [Knot::NONE, Knot::NONE].map(Box::new));
-        model.knot(self.begin.t, point, &mut knots[1]);
-    }
-
-    /// Goes to the end of a step if its ends tell that nothing happens on the way: the step is short for the motion, and on the
-    /// cubic between them no function comes near zero. Elsewhere samples have to be [looked](Self::look) at.
-    ///
-    /// # Errors
-    /// Those of `at`.
-    pub(super) fn passes(
-        &mut self,
-        model: &dyn Mechanics<N, P>,
-        end: f64,
-        rate: impl Fn(&P) -> f64,
-        at: &mut At<'_, P>,
-    ) -> Result<bool, Reason> {
-        let Some(knots) = &mut self.knots else { return Ok(false) };
-        let (point, _) = at(end)?;
-        knots.swap(0, 1);
-        model.knot(end, &point, &mut knots[1]);
-        self.end.t = end;
-        let passes = self.may_pass(&point) && self.are_told(model);
-        let before = self.passed.take();
-        if passes {
-            self.pass();
-            self.passed = Some(point);
-        } else if let Some(before) = before {
-            self.begin.rate = rate(&before);
-        }
-        Ok(passes)
-    }
-
-    /// Every function begins on a side of zero, and is there at the end, or where it may come uncounted.
-    fn may_pass(&mut self, point: &P) -> bool {
-        let (t, bases) = (self.end.t, self.bases.as_ref());
-        let events = self.events.iter().zip(&self.memory).zip(&mut self.end.values);
-        events.into_iter().all(|((event, memory), value)| {
-            *value = event.at(t, point, bases);
-            let is_left =
-                |to| matches!(memory.standing, Standing::On(from) if from == to || !event.counts(to));
-            Side::of(*value).is_some_and(is_left)
-        })
-    }
-
-    /// The cubic between the ends of a step tells that no function comes near zero, or goes there and back.
-    fn are_told(&mut self, model: &dyn Mechanics<N, P>) -> bool {
-        let Self { events, bases, begin, end, ways, knots: Some([from, to]), .. } = self else {
-            return false;
-        };
-        let (t, bases) = (begin.t, bases.as_ref());
-        ways.clear();
-        ways.extend(begin.values.iter().zip(&end.values).map(|(begin, end)| Told::between(*begin, *end)));
-        let mut are_numbers = |part: f64, point: &P| {
-            let t = t + part * (end.t - t);
-            events.iter().zip(ways.iter_mut()).all(|(event, way)| way.goes(event.at(t, point, bases)))
-        };
-        let is_cubic =
-            begin.t == from.t && model.on_cubic(Cubic { begin: from, end: to }, &PARTS, &mut are_numbers);
-        is_cubic && ways.iter_mut().zip(&end.values).all(|(way, end)| way.ends_plainly(*end))
     }
 
     /// The number of parts of at most the length that samples allow, on the way to a time.
