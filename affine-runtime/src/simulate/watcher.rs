@@ -1,6 +1,7 @@
 //! Changes of sign between samples.
 
 mod passes;
+mod told;
 
 use super::accumulation::Changes;
 use super::cubic::Knot;
@@ -14,7 +15,7 @@ use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
-use passes::Told;
+use told::Told;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
 const TURN: f64 = 0.5;

@@ -4,7 +4,7 @@ mod attempt;
 mod before;
 mod dense;
 
-use attempt::{AT_BEGIN, Attempt, Slopes, combination};
+use attempt::{AT_BEGIN, AT_END, Attempt, Slopes, combination};
 use before::Before;
 use pulp::{Simd, WithSimd};
 
@@ -16,14 +16,12 @@ use super::step::Pair;
 use crate::error_norm::{NormInLanes, Squares};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
-use crate::lanes::parts::{in_lanes, part, parts, plus, set_part};
+use crate::lanes::parts::{in_lanes, part, parts, set_part};
 use crate::step_size::Controller;
 use crate::step_size::in_lanes::{Clocks, fate};
 use affine_core::__private::numerics::IN_RANGE;
 use affine_core::model::StateVector;
 
-/// Place of the slope at the end of a step, which is the first of the next.
-const AT_END: usize = 12;
 /// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
 /// steps. A lane that is done is given the next body, while the others are on their way.
 pub struct RungeKutta8InLanes<T, S, F> {

@@ -2,13 +2,14 @@
 
 use pulp::Simd;
 
-use super::AT_END;
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{part, parts, plus, set_part};
 use crate::runge_kutta::field::STAGES;
 use affine_core::model::StateVector;
 
+/// Place of the slope at the end of a step, which is the first of the next.
+pub(super) const AT_END: usize = 12;
 /// Place of the first slope of the last step, where that is kept.
 pub(super) const AT_BEGIN: usize = STAGES;
 

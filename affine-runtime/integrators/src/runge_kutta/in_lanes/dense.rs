@@ -2,8 +2,9 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::RungeKutta8InLanes;
+use super::attempt::{AT_BEGIN, AT_END, Attempt, Slopes, combination};
 use super::before::Before;
-use super::{AT_BEGIN, AT_END, Attempt, RungeKutta8InLanes, Slopes, combination};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{in_lanes, part, parts, set_part};
