@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use affine_runtime::prelude::*;
 
-use crate::models::{Elastic, Sampled};
+use crate::models::{Elastic, Sampled, Vibrating};
 
 /// Times: the error of the motion at the finest tolerances over rates of order 1.
 const TIME: f64 = 1e-12;
@@ -145,4 +145,23 @@ fn there_and_back_within_a_step() {
         }
     }
     assert!(looked_at > 50, "{looked_at}");
+}
+
+/// A stiff dilatation in closed form turns several times within a step: the ends of steps do not pass for what is between them.
+#[test]
+fn crossings_that_steps_pass_over() {
+    let model = Vibrating { kappa: 1e5, c1: 0.5 }.prepare().unwrap();
+    let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    let start = model.at_momentum(1.5 * Matrix::<3>::identity(), Comoving(spin)).unwrap();
+    let simulation = || Simulation::new(&model, start).until(1.0).tolerance(1e-8).method(Method::RungeKutta8);
+    let fine = simulation().every(1e-4).run().unwrap();
+    let beyond: Vec<bool> = fine.points().iter().map(|point| point.phi().determinant() > 1.0).collect();
+    let changes = beyond.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let found = simulation().event(Event::determinant(1.0)).run().unwrap();
+    // Samples pass over some of them: the rate where one begins tells where the next one stands, and vanishes at turning points.
+    let (steps, found) = (found.statistics().steps as usize, found.events().len());
+    assert!(
+        found > 2 * steps && 4 * found > 3 * changes && found <= changes,
+        "{found} of {changes} in {steps}"
+    );
 }

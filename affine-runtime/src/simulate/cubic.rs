@@ -1,7 +1,7 @@
 //! The motion over a step as its ends alone tell it.
 
 use super::layout::placement_in;
-use crate::model::{Model, Quantity, StateVector};
+use crate::model::{Model, StateVector};
 
 /// Part of the numbers of a group by which their rise over a step may differ from what the rates at its ends make of it: an
 /// oscillation turns by 0.7 radians then, and the cubic is off by 7e-4 of its amplitude.
@@ -62,7 +62,7 @@ impl Cubic<'_> {
             let is_near = h * h * rise <= FURTHEST * FURTHEST * size && SQUARES.contains(&size);
             left <= UNEXPLAINED * UNEXPLAINED * size
                 && size < f64::INFINITY
-                && (is_near || group.quantity != Quantity::Placement)
+                && (is_near || !group.quantity.is_placement())
         });
         are_plain && const { placement_in(M::DESCRIPTION.full, N).is_some() && M::Full::<f64>::LEN <= MOST }
     }
