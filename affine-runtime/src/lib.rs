@@ -107,6 +107,8 @@ pub mod gltf;
 pub mod inertia;
 pub mod lattice;
 pub mod material;
+#[cfg(feature = "std")]
+mod numbers;
 pub mod potential;
 mod private;
 #[cfg(feature = "report")]

@@ -14,6 +14,7 @@ mod conservation;
 mod course;
 #[cfg(feature = "csv")]
 mod csv;
+mod cubic;
 mod dense;
 mod departure;
 mod domain;

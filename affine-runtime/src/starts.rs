@@ -22,6 +22,7 @@ use rand_distr::StandardNormal;
 
 use crate::inner::LogDeterminant;
 use crate::model::{Model, Quantity};
+use crate::numbers::numbers;
 use crate::state::Phase;
 
 /// Phase points around one: all numbers of placement, momentum, position and linear momentum are independent, with a normal
@@ -191,16 +192,6 @@ pub fn latin_hypercube<R: Rng + ?Sized>(rng: &mut R, count: usize, bounds: &[(f6
         }
     }
     places
-}
-
-/// The numbers of a phase point, as [`Phase::entries`] has them.
-fn numbers<const N: usize, P: Phase<N>>(point: &P) -> [f64; 24] {
-    let (mut numbers, mut place) = ([0.0; 24], 0);
-    point.entries(&mut |number| {
-        numbers[place] = number;
-        place += 1;
-    });
-    numbers
 }
 
 /// Placement, momentum, position, linear momentum: the group of a place among these numbers.

@@ -1,8 +1,10 @@
 //! Events of emitted models against closed forms.
 
+use core::cell::Cell;
+
 use affine_runtime::prelude::*;
 
-use crate::models::{Elastic, Sampled};
+use crate::models::{Elastic, Sampled, Vibrating};
 
 /// Times: the error of the motion at the finest tolerances over rates of order 1.
 const TIME: f64 = 1e-12;
@@ -88,4 +90,78 @@ fn forward_and_back_through_events_with_resumption() {
         assert_eq!(events, whole.events());
         assert_eq!(rest.statistics(), whole.statistics());
     }
+}
+
+type Solid = <Elastic as Model<3>>::Point<f64>;
+
+fn solid<'a>(start: Solid, tolerance: f64) -> Simulation<'a, 3, Elastic> {
+    Simulation::new(&Elastic, start).until(6.0).tolerance(tolerance).method(Method::RungeKutta8)
+}
+
+/// A function that stays away from zero takes four values a step, and the equations none.
+#[test]
+fn steps_whose_ends_tell_are_not_evaluated_within() {
+    for start in Elastic.samples(4, 61) {
+        let plain = solid(start, 1e-9).run().unwrap().statistics();
+        let calls = Cell::new(0);
+        let far = |_: f64, point: &Solid| {
+            calls.set(calls.get() + 1);
+            point.phi()[(0, 0)] + 9.0
+        };
+        let watched = solid(start, 1e-9).event(Event::new("far", far)).run().unwrap().statistics();
+        assert_eq!(watched, plain);
+        assert_eq!(calls.get(), 1 + 4 * plain.steps);
+    }
+}
+
+/// A level just below an extreme is crossed twice within a step, which both ends of it do not show.
+#[test]
+fn there_and_back_within_a_step() {
+    let mut looked_at = 0;
+    for (start, tolerance) in
+        Elastic.samples(4, 62).into_iter().flat_map(|start| [1e-5, 1e-9, 1e-12].map(|eps| (start, eps)))
+    {
+        for (i, k) in [(0, 0), (0, 1), (2, 2)] {
+            let rate = move |_: f64, point: &Solid| Elastic.velocity(point).phi_dot[(i, k)];
+            let run = solid(start, tolerance).event(Event::new("extreme", rate)).run().unwrap();
+            for extreme in run.events() {
+                let after = run.times().partition_point(|t| *t <= extreme.t);
+                let Some(end) = run.times().get(after) else { continue };
+                let begin = run.times()[after - 1];
+                let [from, to, most] =
+                    [&run.points()[after - 1], &run.points()[after], &extreme.point].map(|p| p.phi()[(i, k)]);
+                let nearer = if (most - from).abs() < (most - to).abs() { (begin, from) } else { (*end, to) };
+                // Samples are a quarter of the step apart.
+                if (nearer.0 - extreme.t).abs() < 0.2 * (end - begin) {
+                    continue;
+                }
+                let level = nearer.1 + 0.25 * (most - nearer.1);
+                let crossed = move |_: f64, point: &Solid| point.phi()[(i, k)] - level;
+                let found = solid(start, tolerance).event(Event::new("level", crossed)).run().unwrap();
+                let within = found.events().iter().filter(|event| (begin..=*end).contains(&event.t));
+                assert_eq!(within.count(), 2, "{tolerance:e}: {i}{k} from {begin} to {end}");
+                looked_at += 1;
+            }
+        }
+    }
+    assert!(looked_at > 50, "{looked_at}");
+}
+
+/// A stiff dilatation in closed form turns several times within a step: the ends of steps do not pass for what is between them.
+#[test]
+fn crossings_that_steps_pass_over() {
+    let model = Vibrating { kappa: 1e5, c1: 0.5 }.prepare().unwrap();
+    let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    let start = model.at_momentum(1.5 * Matrix::<3>::identity(), Comoving(spin)).unwrap();
+    let simulation = || Simulation::new(&model, start).until(1.0).tolerance(1e-8).method(Method::RungeKutta8);
+    let fine = simulation().every(1e-4).run().unwrap();
+    let beyond: Vec<bool> = fine.points().iter().map(|point| point.phi().determinant() > 1.0).collect();
+    let changes = beyond.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let found = simulation().event(Event::determinant(1.0)).run().unwrap();
+    // Samples pass over some of them: the rate where one begins tells where the next one stands, and vanishes at turning points.
+    let (steps, found) = (found.statistics().steps as usize, found.events().len());
+    assert!(
+        found > 2 * steps && 4 * found > 3 * changes && found <= changes,
+        "{found} of {changes} in {steps}"
+    );
 }

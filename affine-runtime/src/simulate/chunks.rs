@@ -40,8 +40,8 @@ impl Folder {
         }
         let mut there: Vec<String> = lines.map(str::to_owned).collect();
         there.truncate(there.iter().rposition(|line| line.starts_with(mark)).map_or(0, |last| last + 1));
-        let kept =
-            [run].into_iter().chain(there.iter().map(String::as_str)).fold(String::new(), line_by_line);
+        let kept = [run].into_iter().chain(there.iter().map(String::as_str));
+        let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
         let begun =
             written(&place, kept.as_bytes()).and_then(|()| OpenOptions::new().append(true).open(&place));
         let manifest = begun.map_err(|error| failed(&place, &error))?;
@@ -76,10 +76,6 @@ impl Folder {
         let noted = self.manifest.write_all(lines.as_bytes()).and_then(|()| self.manifest.sync_data());
         noted.map_err(|error| failed(&self.path.join("manifest.txt"), &error))
     }
-}
-
-fn line_by_line(text: String, line: &str) -> String {
-    text + line + "\n"
 }
 
 /// Writes a file under another name, and then gives it its own.

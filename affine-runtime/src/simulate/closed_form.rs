@@ -2,11 +2,10 @@
 
 use super::collapse::rate_of_determinant;
 use super::course::Course;
-use super::follow::WITHIN_A_STEP;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::recorder::Recorder;
-use super::watcher::{At, Sampling};
+use super::watcher::{At, Sampling, WITHIN_A_STEP};
 use crate::error::Reason;
 use crate::geodesic::{Geodesic, Motion};
 use crate::inner::LogDeterminant;
@@ -120,7 +119,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The events on the way from one output to the next, in stretches of a few samples each, after which the run may be
     /// interrupted; whether the motion does not go straight on.
     fn meet_between(&mut self, until: f64, rate: f64, at: &mut At<'_, P>) -> Result<bool, Reason> {
-        let sampling = Sampling { parts: WITHIN_A_STEP, rate };
+        let sampling = Sampling { parts: WITHIN_A_STEP, by_ends: false, rate };
         let longest = (self.t_end - self.origin).abs() / STRETCHES;
         while self.has_events() && self.watcher.t() != until {
             let (t, left) = (self.watcher.t(), until - self.watcher.t());

@@ -1,10 +1,11 @@
 //! A motion between its outputs, kept for times that are asked for afterwards.
 
-use super::interpolant::{Fit, Numbers, Polynomial, numbers};
+use super::interpolant::{Fit, Polynomial};
 use crate::error::Reason;
 use crate::geodesic::Geodesic;
 use crate::inner::larger;
 use crate::metrics::Bases;
+use crate::numbers::{Numbers, numbers};
 use crate::state::Phase;
 
 /// Polynomials may be so much of the tolerance off the motion that they stand for.

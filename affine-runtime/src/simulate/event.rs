@@ -52,6 +52,13 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// two samples or more for each radian, of one evaluation of the motion each; they take no memory, and
 /// [`progress`](super::Simulation::progress) is called after every few of them.
 ///
+/// Where steps follow the error, samples within a step are first taken on the cubic through the numbers of the phase points at
+/// its ends, with Hamilton's equations there: that asks neither dense output nor a closed form. What it tells counts if the step is
+/// short for the motion, that is, if placement, momentum, `x` and `p` each rise by what the trapezoidal rule makes of their rates,
+/// up to 1/32 of themselves, and `|phi_dot| dt <= |phi|`; and if each function stays away from zero by 1/8 of what it changes by,
+/// or goes through it in the direction that does not count, and does not turn. All other steps are looked at on the dense output,
+/// where events are located.
+///
 /// The time is located on the dense output of the step to the rounding of times: it has the error of the dense output over the
 /// rate of the function. The event is at the first floating-point time found at which the sign has changed.
 ///

@@ -11,13 +11,11 @@ use super::output::Schedule;
 use super::point::is_clearly_positive;
 use super::recorder::{Recorder, Turn};
 use super::trajectory::{Computation, Trajectory};
-use super::watcher::Sampling;
+use super::watcher::{Sampling, WITHIN_A_STEP};
 use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::state::Phase;
 
-/// Equal parts of a step at whose ends events are looked at, where its length follows the error.
-pub(super) const WITHIN_A_STEP: u32 = 4;
 /// Explicit steps after which friction is looked at again, and after twice as many, and so on: a look costs the evaluations of
 /// eight.
 const STEPS_UNTIL_A_LOOK: u64 = 512;
@@ -76,7 +74,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let mut guard = Guard::begin(model, motion, (since, &start), (asked, tolerance))?;
         let is_watched = self.progress.is_some() || self.is_watched();
         let equal = asked.step().is_some();
-        let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, rate: 0.0 };
+        let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, by_ends: !equal, rate: 0.0 };
         while !motion.is_finished() {
             self.steps = cost + motion.statistics().steps;
             if self.steps >= self.max_steps {

@@ -4,10 +4,7 @@ use core::f64::consts::PI;
 
 use crate::error::Reason;
 use crate::inner::{larger, norm};
-use crate::state::Phase;
-
-/// The numbers of a phase point, of which there are as many in three dimensions.
-pub(super) type Numbers = [f64; 24];
+use crate::numbers::Numbers;
 
 /// Degrees of polynomials: they are doubled until the next one adds nothing, and the highest is for what none is enough for.
 const LOWEST_DEGREE: usize = 4;
@@ -21,16 +18,6 @@ const ROUNDINGS: f64 = 4.0;
 /// What an error of a momentum may move the placement by within a step is a part of the placement's own error, as for steps:
 /// see [`ErrorNorm`](affine_integrators::ErrorNorm).
 const PART_OF_DISPLACEMENT: f64 = 0.1;
-
-/// The numbers of a phase point.
-pub(super) fn numbers<const N: usize, P: Phase<N>>(point: &P) -> Numbers {
-    let (mut numbers, mut filled) = ([0.0; 24], 0);
-    point.entries(&mut |entry| {
-        numbers[filled] = entry;
-        filled += 1;
-    });
-    numbers
-}
 
 /// A polynomial in time, by its values at the Chebyshev points of an interval, ends included.
 #[derive(Clone, Debug, PartialEq)]

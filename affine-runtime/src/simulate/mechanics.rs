@@ -1,6 +1,7 @@
 //! What a run asks of a model.
 
 use super::course::{Choice, Course};
+use super::cubic::{Cubic, Knot};
 use super::friction::rate_of_friction;
 use super::motion::{Boxed, Motion, PointOf, Purpose};
 use crate::error::Reason;
@@ -25,6 +26,10 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn rate_of_friction(&self, t: f64, point: &P) -> Option<f64>;
     fn domain(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     fn velocity(&self, point: &P) -> Velocity<N>;
+    /// Sets a knot to a point.
+    fn knot(&self, t: f64, point: &P, knot: &mut Knot);
+    /// Whether a cubic tells the motion, and the points on it are such after each of some parts.
+    fn on_cubic(&self, cubic: Cubic<'_>, parts: &[f64], are: &mut dyn FnMut(f64, &P) -> bool) -> bool;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
     /// When a closed form leaves GL+(n).
@@ -79,6 +84,18 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     }
     fn velocity(&self, point: &M::Point<f64>) -> Velocity<N> {
         self.handle.model().velocity(point)
+    }
+    fn knot(&self, t: f64, point: &M::Point<f64>, knot: &mut Knot) {
+        knot.set(self.handle.model(), t, point);
+    }
+    fn on_cubic(
+        &self,
+        cubic: Cubic<'_>,
+        parts: &[f64],
+        are: &mut dyn FnMut(f64, &M::Point<f64>) -> bool,
+    ) -> bool {
+        let mut is = |part: &f64| are(*part, &cubic.point(self.handle.model(), *part));
+        cubic.is_plain::<N, M>() && parts.iter().all(&mut is)
     }
     fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
         self.handle.model().geodesic(t0, point)

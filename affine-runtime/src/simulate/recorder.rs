@@ -74,7 +74,7 @@ pub(super) enum Turn<P> {
 impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Records the start of an integration where it is an output.
     pub(super) fn begin(&mut self, t0: f64, start: &P) -> Result<(), Reason> {
-        self.watcher.begin(t0, start, turning(self.model, start), &self.place.events);
+        self.watch_from(t0, start);
         if !self.place.integrator.is_empty() {
             return Ok(());
         }
@@ -115,6 +115,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         !self.watcher.is_idle()
     }
 
+    /// Begins to look for them where steps begin.
+    fn watch_from(&mut self, t: f64, point: &P) {
+        self.watcher.begin(t, point, turning(self.model, point), &self.place.events);
+        if self.has_events() {
+            self.watcher.begin_steps(self.model, point);
+        }
+    }
+
     /// Something may end the run, or ask where it is.
     pub(super) fn is_watched(&self) -> bool {
         self.observe.is_some() || self.has_events()
@@ -131,7 +139,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         motion.exchange(&mut Bits::Read(self.place.integrator.iter()));
         let t = motion.t();
         let (point, work) = motion.reached();
-        self.watcher.begin(t, &point, turning(self.model, &point), &self.place.events);
+        self.watch_from(t, &point);
         self.trajectory.end = (t, point);
         self.trajectory.energies.work_at_end = self.place.work() + work;
     }
@@ -172,6 +180,9 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
+        if sampling.by_ends && self.has_events() && self.watcher.passes(model, end, rate, at)? {
+            return Ok(false);
+        }
         let (mut count, mut samples) = (0, 0_u32);
         while self.has_events() && self.watcher.t() != end {
             let sample = self.watcher.next(start, end, sampling);

@@ -259,15 +259,8 @@ impl<const N: usize, P: Phase<N>> Columns<N, P> {
 
     pub(super) fn values(&self, point: &P) -> Vec<f64> {
         let rows = |m: Matrix<N>| (0..N * N).map(move |k| m[(k / N, k % N)]);
-        let mut values = Vec::with_capacity(2 * N * (N + 1));
-        if self.translation {
-            values.extend(point.x().iter());
-        }
-        values.extend(rows(*point.phi()));
-        if self.translation {
-            values.extend(point.p().iter());
-        }
-        values.extend(rows((self.momentum.1)(point)));
-        values
+        let (x, p, moving) = (point.x(), point.p(), if self.translation { N } else { 0 });
+        let placed = x.iter().take(moving).copied().chain(rows(*point.phi()));
+        placed.chain(p.iter().take(moving).copied()).chain(rows((self.momentum.1)(point))).collect()
     }
 }

@@ -1,6 +1,10 @@
 //! Changes of sign between samples.
 
+mod passes;
+mod told;
+
 use super::accumulation::Changes;
+use super::cubic::Knot;
 use super::departure::departure;
 use super::event::{Action, Direction, Event};
 use super::motion::WithWork;
@@ -11,6 +15,7 @@ use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
+use told::Told;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
 const TURN: f64 = 0.5;
@@ -21,6 +26,8 @@ const AT_ZERO: f64 = 1e-3;
 const ROUNDED: f64 = 1e-12;
 /// Part of the rate at which a function came to zero that is no rate at which it goes on.
 const AT_REST: f64 = 1e-6;
+/// Equal parts of a step at whose ends functions are looked at, where its length follows the error.
+pub(super) const WITHIN_A_STEP: u32 = 4;
 
 /// The phase point at a time, and the work.
 pub(super) type At<'m, P> = dyn FnMut(f64) -> Result<WithWork<P>, Reason> + 'm;
@@ -51,6 +58,8 @@ struct Way {
 pub(super) struct Sampling {
     /// At the ends of at least so many equal parts.
     pub(super) parts: u32,
+    /// The ends of a stretch may tell that nothing happens in between, where steps follow the error.
+    pub(super) by_ends: bool,
     /// What angles and log-stretches change by in a unit of time, at least; the velocity is looked at besides.
     pub(super) rate: f64,
 }
@@ -72,6 +81,12 @@ pub(super) struct Watcher<'a, const N: usize, P> {
     memory: Vec<Memory>,
     begin: Sample,
     end: Sample,
+    /// The motion at both ends of a step, where there are events.
+    knots: Option<[Box<Knot>; 2]>,
+    /// What is told of functions within it.
+    ways: Vec<Told>,
+    /// The point where the part begins, if its rate is not known yet.
+    passed: Option<P>,
     /// Events that are still at zero at the end of the part.
     stays: Vec<bool>,
     /// An event whose change has left its function at rest at zero: [`Reason::Accumulation`].
@@ -82,7 +97,8 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     pub(super) fn new(events: Vec<Event<'a, N, P>>, bases: Option<Bases<N>>) -> Self {
         let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
         let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
-        Self { memory: Vec::new(), begin, end, stays, rests: None, events, bases }
+        let (memory, ways) = (Vec::new(), Vec::new());
+        Self { memory, begin, end, knots: None, ways, passed: None, stays, rests: None, events, bases }
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -108,6 +124,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             _ => memory.to_vec(),
         };
         self.begin = Sample { t, values, rate };
+        self.passed = None;
     }
 
     /// The number of parts of at most the length that samples allow, on the way to a time.

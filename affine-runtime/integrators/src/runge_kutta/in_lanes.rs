@@ -1,8 +1,10 @@
 //! The method of order 8 for several bodies at once, each in a lane with steps of its own.
 
+mod attempt;
 mod before;
 mod dense;
 
+use attempt::{AT_BEGIN, AT_END, Attempt, Slopes, combination};
 use before::Before;
 use pulp::{Simd, WithSimd};
 
@@ -14,14 +16,11 @@ use super::step::Pair;
 use crate::error_norm::{NormInLanes, Squares};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
-use crate::lanes::parts::{in_lanes, part, parts, plus, set_part};
+use crate::lanes::parts::{in_lanes, part, parts, set_part};
 use crate::step_size::Controller;
 use crate::step_size::in_lanes::{Clocks, fate};
 use affine_core::__private::numerics::IN_RANGE;
 use affine_core::model::StateVector;
-
-/// Place of the slope at the end of a step, which is the first of the next.
-const AT_END: usize = 12;
 
 /// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
 /// steps. A lane that is done is given the next body, while the others are on their way.
@@ -32,7 +31,7 @@ pub struct RungeKutta8InLanes<T, S, F> {
     clocks: Clocks<T>,
     y: S,
     trial: S,
-    stages: [S; STAGES],
+    stages: Slopes<S>,
     /// Where the last attempts began, if that is kept.
     before: Option<Before<T, S>>,
 }
@@ -62,7 +61,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             ),
             y: S::zeros(),
             trial: S::zeros(),
-            stages: [S::zeros(); STAGES],
+            stages: [S::zeros(); STAGES + 1],
             before: None,
         }
     }
@@ -91,7 +90,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     /// Tries one step in every lane; what becomes of a body, where its way ends.
     pub fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<T, S, F> {
         if let Some(before) = &mut self.before {
-            before.begin(self.clocks.t, &self.y, &self.stages[0]);
+            before.begin(self.clocks.t, &self.y);
+            self.stages[AT_BEGIN] = self.stages[0];
         }
         let is_a_last_resort = self.f.are_a_last_resort();
         let fates = in_lanes::<T, _>(Trial(self), is_a_last_resort);
@@ -109,69 +109,24 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     #[inline(always)]
     fn step<V: Simd>(&mut self, simd: V) -> T {
-        let h = self.clocks.end - self.clocks.t;
-        self.stage(simd, h, NODES[0], &A2);
-        self.stage(simd, h, NODES[1], &A3);
-        self.stage(simd, h, NODES[2], &A4);
-        self.stage(simd, h, NODES[3], &A5);
-        self.stage(simd, h, NODES[4], &A6);
-        self.stage(simd, h, NODES[5], &A7);
-        self.stage(simd, h, NODES[6], &A8);
-        self.stage(simd, h, NODES[7], &A9);
-        self.stage(simd, h, NODES[8], &A10);
-        self.stage(simd, h, NODES[9], &A11);
-        self.stage(simd, h, NODES[10], &A12);
-        self.moved(simd, h, &B);
-        self.f.slope(self.clocks.end, &self.trial, &mut self.stages[AT_END]);
-        let (error, doubt) = self.error(simd, h.abs());
+        let Self { f, y, trial, stages, clocks, .. } = self;
+        let (t, end) = (clocks.t, clocks.end);
+        let mut attempt = Attempt { f, t, end, h: end - t, y, stages, trial };
+        attempt.stage(simd, NODES[0], &A2);
+        attempt.stage(simd, NODES[1], &A3);
+        attempt.stage(simd, NODES[2], &A4);
+        attempt.stage(simd, NODES[3], &A5);
+        attempt.stage(simd, NODES[4], &A6);
+        attempt.stage(simd, NODES[5], &A7);
+        attempt.stage(simd, NODES[6], &A8);
+        attempt.stage(simd, NODES[7], &A9);
+        attempt.stage(simd, NODES[8], &A10);
+        attempt.stage(simd, NODES[9], &A11);
+        attempt.stage(simd, NODES[10], &A12);
+        attempt.end(simd, &B);
+        let h = attempt.h.abs();
+        let (error, doubt) = self.error(simd, h);
         self.turn(simd, error, doubt)
-    }
-
-    #[inline(always)]
-    fn stage<V: Simd, const TERMS: usize>(
-        &mut self,
-        simd: V,
-        h: T,
-        (number, node): (usize, f64),
-        row: &[(usize, f64); TERMS],
-    ) {
-        let mut time = self.clocks.end;
-        if node != 1.0 {
-            time = self.clocks.t + T::constant(node, 0.0) * h;
-        }
-        self.at_stage(simd, h, row);
-        self.f.slope(time, &self.trial, &mut self.stages[number - 1]);
-    }
-
-    /// The trial states at the stage of a row: the last one enters last.
-    #[inline(always)]
-    fn at_stage<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
-        let (last, newest) = row[TERMS - 1];
-        for k in 0..parts::<V, T>() {
-            let h = part(simd, &h, k);
-            let of_newest = simd.mul_f64s(h, simd.splat_f64s(newest));
-            for i in 0..S::LEN {
-                let mut at = part(simd, &self.y.as_ref()[i], k);
-                if TERMS > 1 {
-                    at = plus::<V, T>(simd, combination(simd, &self.stages, (i, k), row, TERMS - 1), h, at);
-                }
-                let slope = part(simd, &self.stages[last - 1].as_ref()[i], k);
-                set_part(simd, &mut self.trial.as_mut()[i], k, plus::<V, T>(simd, slope, of_newest, at));
-            }
-        }
-    }
-
-    /// The trial states at the end of the step, rounded once.
-    #[inline(always)]
-    fn moved<V: Simd, const TERMS: usize>(&mut self, simd: V, h: T, row: &[(usize, f64); TERMS]) {
-        for k in 0..parts::<V, T>() {
-            let h = part(simd, &h, k);
-            for i in 0..S::LEN {
-                let sum = combination(simd, &self.stages, (i, k), row, TERMS);
-                let y = part(simd, &self.y.as_ref()[i], k);
-                set_part(simd, &mut self.trial.as_mut()[i], k, plus::<V, T>(simd, sum, h, y));
-            }
-        }
     }
 
     /// Estimated errors relative to the tolerance, of steps of these lengths; and 1 where squares leave the range of
@@ -244,29 +199,6 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         }
         self.clocks.turn(errors, unsound)
     }
-}
-
-/// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it: of its first terms,
-/// whose number is known where this is compiled.
-#[inline(always)]
-fn combination<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
-    simd: V,
-    stages: &[S; STAGES],
-    (i, k): (usize, usize),
-    row: &[(usize, f64); TERMS],
-    terms: usize,
-) -> V::f64s {
-    let mut sum = simd.splat_f64s(0.0);
-    for (term, (stage, coefficient)) in row.iter().enumerate().take(terms) {
-        let slope = part(simd, &stages[stage - 1].as_ref()[i], k);
-        let coefficient = simd.splat_f64s(*coefficient);
-        sum = if term == 0 {
-            simd.mul_f64s(slope, coefficient)
-        } else {
-            plus::<V, T>(simd, slope, coefficient, sum)
-        };
-    }
-    sum
 }
 
 /// A step in every lane.

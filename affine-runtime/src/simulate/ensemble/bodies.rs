@@ -12,17 +12,7 @@ use crate::model::{Group, Model, StateVector};
 use crate::simulate::layout::{Layout, placement_in};
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
-
-/// What all bodies of an ensemble have in common.
-#[derive(Clone, Copy)]
-pub(super) struct Common {
-    pub(super) t0: f64,
-    pub(super) t_end: f64,
-    pub(super) tolerance: f64,
-    pub(super) max_steps: u64,
-    /// Times within steps are asked for.
-    pub(super) within_steps: bool,
-}
+use crate::simulate::settings::Plan;
 
 /// A body before its first step.
 pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
@@ -35,10 +25,10 @@ pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
 
 /// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
 pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
-    common: Common,
+    (plan, t_end): (&Plan, f64),
     points: &[(usize, &'a M, &M::Point<f64>)],
 ) -> Vec<Begun<'a, N, M>> {
-    let Common { t0, t_end, tolerance, .. } = common;
+    let t0 = plan.t0;
     let Some(&(_, first, _)) = points.first() else { return Vec::new() };
     let (states, constants): (Vec<_>, Vec<_>) =
         points.iter().map(|(_, model, point)| model.reduce(t0, point)).unzip();
@@ -48,7 +38,7 @@ pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
     for (k, component) in in_lanes.as_mut().iter_mut().enumerate() {
         *component = gathered(&states, |state: &M::Reduced<f64>| state.as_ref()[k]);
     }
-    let starts = starts_in_lanes(&equations, (t0, &in_lanes), t_end, tolerance);
+    let starts = starts_in_lanes(&equations, (t0, &in_lanes), t_end, plan.tolerance);
     let bodies = points.iter().zip(states).zip(constants).zip(starts);
     bodies
         .filter_map(|((((body, model, _), state), constants), start)| {
@@ -71,11 +61,12 @@ pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
     /// The first bodies, one in every lane; lanes that are left rest where the last of them is.
     pub(super) fn filled(
-        common: Common,
+        (plan, t_end): (&Plan, f64),
+        within_steps: bool,
         first: Begun<'a, N, M>,
         others: &mut impl Iterator<Item = Begun<'a, N, M>>,
     ) -> Self {
-        let Common { t0, t_end, tolerance, max_steps, within_steps } = common;
+        let Plan { t0, tolerance, max_steps, .. } = *plan;
         let constants = M::constants_in_lanes(&[first.constants]);
         let equations = Reduced { first: first.model, models: vec![first.model; T::LANES], constants };
         let mut integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);

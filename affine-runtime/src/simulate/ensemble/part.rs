@@ -1,7 +1,7 @@
 //! Bodies of an ensemble one after the other through the same lanes.
 
 use super::asked::{Asked, Member, Start};
-use super::bodies::{Bodies, Common, begun, has_fused_lanes};
+use super::bodies::{Bodies, begun, has_fused_lanes};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
@@ -62,21 +62,15 @@ where
         let together = starts.iter().enumerate().filter(|(body, _)| apart[*body].is_none());
         let together: Vec<_> =
             together.map(|(body, start)| (body, start.handle.model(), &start.point)).collect();
-        let common = Common {
-            t0: self.plan.t0,
-            t_end: self.t_end,
-            tolerance: self.plan.tolerance,
-            max_steps: self.plan.max_steps,
-            within_steps: self.within_steps,
-        };
+        let course = (self.plan, self.t_end);
         let mut waiting =
-            together.chunks(T::LANES).flat_map(|points| begun::<N, T, H::Model>(common, points));
+            together.chunks(T::LANES).flat_map(|points| begun::<N, T, H::Model>(course, points));
         let Some(first) = waiting.next() else { return };
         let trajectory = empty_trajectory(&models[first.body], self.plan, &starts[first.body].point);
         let mut trajectories = vec![trajectory; T::LANES];
         let record =
             |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
-        let mut bodies = Bodies::<N, T, H::Model>::filled(common, first, &mut waiting);
+        let mut bodies = Bodies::<N, T, H::Model>::filled(course, self.within_steps, first, &mut waiting);
         let mut recordings: Vec<_> = trajectories
             .iter_mut()
             .enumerate()

@@ -4,16 +4,15 @@ use super::asked::{Asked, Start};
 use crate::integrate::Statistics;
 use crate::model::{Handle, Model};
 use crate::simulate::checkpoint::Place;
-use crate::simulate::follow::WITHIN_A_STEP;
 use crate::simulate::mechanics::Mechanics;
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::check;
 use crate::simulate::recorder::{Recorder, Turn};
 use crate::simulate::trajectory::Trajectory;
-use crate::simulate::watcher::{At, Sampling, Watcher};
+use crate::simulate::watcher::{At, Sampling, WITHIN_A_STEP, Watcher};
 use crate::state::Phase;
 
-const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, rate: 0.0 };
+const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, by_ends: true, rate: 0.0 };
 
 /// How a body goes on after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +71,9 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         };
         let begun = recorder.begin_energy(t0, &start.point, Some(plan.tolerance));
         let is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
-        Self { recorder, folded: (asked.begin)(start.number, &start.handle), is_refused }
+        let mut begun = Self { recorder, folded: (asked.begin)(start.number, &start.handle), is_refused };
+        begun.hand_over(asked.add);
+        begun
     }
 
     /// Looks at a step to a time: events, and outputs.
@@ -80,17 +81,17 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         if self.is_refused {
             return Next::Alone;
         }
-        // Those of the step before.
-        self.recorder.place.met = 0;
-        match self.recorder.meet(t, SAMPLING, at) {
-            Ok(false) => {}
-            Ok(true) if matches!(self.recorder.turn, Some(Turn::Stopped)) => {
-                self.hand_over(add);
-                return Next::End;
+        if self.recorder.has_events() {
+            // Those of the step before.
+            self.recorder.place.met = 0;
+            let met = self.recorder.meet(t, SAMPLING, at);
+            self.hand_over(add);
+            match met {
+                Ok(false) => {}
+                Ok(true) if matches!(self.recorder.turn, Some(Turn::Stopped)) => return Next::End,
+                _ => return Next::Alone,
             }
-            _ => return Next::Alone,
         }
-        self.hand_over(add);
         let Recorder { schedule, backward, .. } = &mut self.recorder;
         while let Some(due) = schedule.take_through(t, *backward) {
             match at(due) {

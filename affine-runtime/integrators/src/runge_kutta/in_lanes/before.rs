@@ -7,7 +7,6 @@ use affine_core::model::StateVector;
 pub(super) struct Before<T, S> {
     pub(super) t: T,
     pub(super) y: S,
-    pub(super) slope: S,
     pub(super) coefficients: [S; 7],
     /// The coefficients are those of the last steps.
     pub(super) is_dense: bool,
@@ -17,11 +16,11 @@ impl<T: Lanes, S: StateVector<T>> Before<T, S> {
     /// At a time, before any step.
     pub(super) fn none(t: T) -> Self {
         let zero = S::zeros();
-        Self { t, y: zero, slope: zero, coefficients: [zero; 7], is_dense: false }
+        Self { t, y: zero, coefficients: [zero; 7], is_dense: false }
     }
 
     /// Takes over where steps begin.
-    pub(super) fn begin(&mut self, t: T, y: &S, slope: &S) {
-        (self.t, self.y, self.slope, self.is_dense) = (t, *y, *slope, false);
+    pub(super) fn begin(&mut self, t: T, y: &S) {
+        (self.t, self.y, self.is_dense) = (t, *y, false);
     }
 }

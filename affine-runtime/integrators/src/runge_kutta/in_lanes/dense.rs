@@ -2,8 +2,9 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::RungeKutta8InLanes;
+use super::attempt::{AT_BEGIN, AT_END, Attempt, Slopes, combination};
 use super::before::Before;
-use super::{AT_END, RungeKutta8InLanes, combination};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{in_lanes, part, parts, set_part};
@@ -74,26 +75,28 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Polynomials<'
     type Output = ();
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) {
-        let Self(steps) = self;
-        let Some(Before { t, y, slope, .. }) = &steps.before else { return };
+        let RungeKutta8InLanes { f, y: reached, trial, stages, clocks, before, .. } = self.0;
+        let Some(Before { t, y, coefficients, is_dense }) = before else { return };
         // As in the attempt, whose stages but the first are still there.
-        let (clocks, reached, next) = (steps.clocks, steps.y, steps.stages[0]);
-        (steps.clocks.t, steps.clocks.end, steps.y, steps.stages[0]) = (*t, clocks.t, *y, *slope);
-        let h = steps.clocks.end - steps.clocks.t;
-        steps.stage(simd, h, NODES[12], &A14);
-        steps.stage(simd, h, NODES[13], &A15);
-        steps.stage(simd, h, NODES[14], &A16);
-        let RungeKutta8InLanes { y, stages, before, .. } = steps;
-        if let Some(Before { coefficients: [first, second, third, d4, d5, d6, d7], is_dense, .. }) = before {
-            of_ends(simd, h, [y, &reached], [&stages[0], &stages[AT_END]], [first, second, third]);
-            of_slopes(simd, h, stages, &D4, d4);
-            of_slopes(simd, h, stages, &D5, d5);
-            of_slopes(simd, h, stages, &D6, d6);
-            of_slopes(simd, h, stages, &D7, d7);
-            *is_dense = true;
-        }
-        (steps.clocks, steps.y, steps.stages[0]) = (clocks, reached, next);
+        let h = clocks.t - *t;
+        let mut attempt = Attempt { f, t: *t, end: clocks.t, h, y, stages, trial };
+        attempt.stage(simd, NODES[12], &const { from_begin(A14) });
+        attempt.stage(simd, NODES[13], &const { from_begin(A15) });
+        attempt.stage(simd, NODES[14], &const { from_begin(A16) });
+        let [first, second, third, d4, d5, d6, d7] = coefficients;
+        of_ends(simd, h, [y, reached], [&stages[AT_BEGIN], &stages[AT_END]], [first, second, third]);
+        of_slopes(simd, h, stages, &const { from_begin(D4) }, d4);
+        of_slopes(simd, h, stages, &const { from_begin(D5) }, d5);
+        of_slopes(simd, h, stages, &const { from_begin(D6) }, d6);
+        of_slopes(simd, h, stages, &const { from_begin(D7) }, d7);
+        *is_dense = true;
     }
+}
+
+/// A row whose first slope is that of the last step.
+const fn from_begin<const TERMS: usize>(mut row: [(usize, f64); TERMS]) -> [(usize, f64); TERMS] {
+    row[0].0 = AT_BEGIN + 1;
+    row
 }
 
 /// The coefficients of the values and slopes at both ends.
@@ -126,7 +129,7 @@ fn of_ends<V: Simd, T: Lanes, S: StateVector<T>>(
 fn of_slopes<V: Simd, T: Lanes, S: StateVector<T>, const TERMS: usize>(
     simd: V,
     h: T,
-    stages: &[S; super::STAGES],
+    stages: &Slopes<S>,
     row: &[(usize, f64); TERMS],
     coefficients: &mut S,
 ) {
