@@ -292,7 +292,7 @@ impl Drawing<'_> {
         traced(Traced::Power(Box::new(Traced::Subtract(matrix, number)), pick(self.random, &[2, 2, 3])))
     }
 
-    /// `tr((2*G + 1)*(phi - 0.5*Ct))`.
+    /// `tr((2*G + 1)*(phi - 0.5*Ct))`, and powers of each and of both.
     fn trace_of_sums(&mut self) -> Energy {
         let matrices = [Tensor::Green, Tensor::Finger, Tensor::Placement];
         let mut factor = || {
@@ -302,14 +302,22 @@ impl Drawing<'_> {
             };
             let [one, other] = [scaled(self), scaled(self)].map(Box::new);
             let number = Box::new(Traced::Number(Box::new(self.number())));
-            match self.one_of(3) {
+            let sum = match self.one_of(3) {
                 0 => Traced::Add(one, number),
                 1 => Traced::Subtract(number, one),
                 _ => Traced::Subtract(one, other),
+            };
+            match pick(self.random, &[1, 1, 2, 3]) {
+                1 => sum,
+                power => Traced::Power(Box::new(sum), power),
             }
         };
         let [one, other] = [factor(), factor()].map(Box::new);
-        traced(Traced::Multiply(one, other))
+        let product = Traced::Multiply(one, other);
+        match self.one_of(3) {
+            0 => traced(Traced::Power(Box::new(product), 2)),
+            _ => traced(product),
+        }
     }
 
     fn named(&mut self) -> Energy {

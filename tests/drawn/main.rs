@@ -8,6 +8,7 @@ mod check;
 mod conserved;
 mod draw;
 mod energy;
+mod matrices;
 mod model;
 mod number;
 mod place;

@@ -36,4 +36,5 @@ done <<'PHRASES'
 3|ln(1 + I2^2) + sqrt(1 + (I2 - 3)^2) + abs(tr(G))^3
 3|(Q1 + Q2 + Q3)^2*pairs(sqrt(1 + d^2)) + ln((1 + Q1)*(1 + Q2)*(1 + Q3))
 2|neo_hookean(a) + saint_venant_kirchhoff(1, b) + gas(0.1)
+3|tr((G + Ct)^5) + (tr((G*Ct - a)^3) - 2)^2 + tr(phi*(G + b)^2*phi)
 PHRASES

@@ -7,6 +7,7 @@ mod domain;
 mod metrics;
 mod momentum_side;
 mod potential;
+mod traces;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 
@@ -22,7 +23,7 @@ pub(crate) use base_functions::{difference_of, energy};
 pub use constant::{LARGEST_POWER, constant, integer};
 pub use metrics::metrics;
 pub use momentum_side::stated;
-pub use potential::potential;
+pub use potential::{PotentialEnergy, potential};
 
 /// Does the expression depend on more than fields?
 pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {
@@ -152,6 +153,8 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
         }
         ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
+        | ExpressionKind::PolynomialTrace(_)
+        | ExpressionKind::Matrix(_)
         | ExpressionKind::InverseTrace(_)
         | ExpressionKind::Entry(..)
         | ExpressionKind::Component(_)

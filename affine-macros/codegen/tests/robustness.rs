@@ -232,6 +232,7 @@ fn no_specification_stalls_a_build() {
         format!("(ln(exp({sum}^3)) + exp(ln({sum}^3)))^4"),
         format!("(1/(1/{sum}^3) + ({sum}^-3)^-1)^4"),
         "tr(G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi*G*Ct*phi)".to_owned(),
+        "tr((G*Ct + phi)^16*(Ct*G - phi)^8*(G + Ct)^2)".to_owned(),
         "pairs((exp(d) + exp(-d) + d + sin(d) + cos(d) + sinh(d) + cosh(d))^16)".to_owned(),
     ];
     let mut arguments: Vec<String> = potentials

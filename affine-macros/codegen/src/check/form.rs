@@ -3,7 +3,7 @@
 use super::{capabilities, definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
-use crate::lower;
+use crate::lower::{self, PotentialEnergy};
 use crate::mechanics::asked::Asked;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
@@ -237,9 +237,17 @@ fn potential(
     (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let (energy, domain) = lower::potential(arena, spec, metrics, rebased)?;
+    let PotentialEnergy { energy, domain, slopes, multiplied_out } =
+        lower::potential(arena, spec, metrics, rebased)?;
     let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
-        return Some(Potential::new(arena, spec.dim.value, energy).within(domain));
+        let mut potential = Potential::new(arena, spec.dim.value, energy).within(domain);
+        if let Some(slopes) = slopes {
+            potential = potential.with_slopes(arena, slopes);
+        }
+        return Some(match multiplied_out {
+            Some(energy) => potential.or_by(arena, energy),
+            None => potential,
+        });
     };
     let left = Potential::under(arena, spec.dim.value, (energy, domain), group);
     let defect = match &left {

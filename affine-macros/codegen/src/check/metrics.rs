@@ -5,7 +5,7 @@ use super::inertia::defect;
 use super::shapes::counts;
 use crate::algebra::Arena;
 use crate::diagnostics::{Diagnostics, MetricMistake, TermMistake};
-use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, Spec, Value};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, PolynomialTrace, Spec, Value};
 
 fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
     spec.metrics.iter().flatten()
@@ -68,9 +68,16 @@ pub(super) fn invariant(spec: &Spec, found: &mut Diagnostics) {
     }
     let mut pending: Vec<&Expression> = spec.potential.iter().map(|potential| &potential.energy).collect();
     while let Some(part) = pending.pop() {
-        if let ExpressionKind::Trace(factors) = &part.kind
-            && (factors.contains(&MatrixName::Placement) || factors.windows(2).any(|pair| pair[0] != pair[1]))
-        {
+        let factors = match &part.kind {
+            ExpressionKind::Trace(factors) => factors.clone(),
+            ExpressionKind::PolynomialTrace(PolynomialTrace { products: Some(products), .. }) => {
+                pending.push(products);
+                continue;
+            }
+            ExpressionKind::PolynomialTrace(trace) => trace.matrices(),
+            _ => Vec::new(),
+        };
+        if factors.contains(&MatrixName::Placement) || factors.windows(2).any(|pair| pair[0] != pair[1]) {
             found.report(part.span, MetricMistake::MetricForm { form: part.to_string() });
         }
         pending.extend(part.operands());

@@ -10,7 +10,8 @@ use crate::spec::{Expression, ExpressionKind, MatrixName, numbered};
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
 const MOST_SUMMANDS: u64 = 512;
 
-/// Traces are computed by products of matrices, each once, so that their size is the number of their factors.
+/// Traces are computed by products of matrices, each once, so that their size is the number of their factors, and of a power one
+/// less than its exponent beyond those of its base.
 const MOST_FACTORS: usize = 32;
 
 /// Upper bounds of numbers of summands.
@@ -40,12 +41,14 @@ pub(super) fn of_potential(energy: &Expression, n: usize, found: &mut Diagnostic
     let mut known: Vec<&[MatrixName]> = Vec::new();
     let mut factors = 0;
     for part in parts(energy) {
-        let ExpressionKind::Trace(product) = &part.kind else { continue };
-        if product.len() == 1 || known.contains(&product.as_slice()) {
-            continue;
+        match &part.kind {
+            ExpressionKind::Trace(product) if product.len() > 1 && !known.contains(&product.as_slice()) => {
+                known.push(product);
+                factors += product.len();
+            }
+            ExpressionKind::PolynomialTrace(trace) => factors += trace.matrices().len(),
+            _ => continue,
         }
-        known.push(product);
-        factors += product.len();
         if factors > MOST_FACTORS {
             let limit = "32 factors in its traces";
             return Err(found.report(part.span, ExpressionMistake::ExpressionSize { limit }));
@@ -90,6 +93,10 @@ fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result
         }
         (ExpressionKind::Call(function, argument), [of]) => of.applied(*function, argument),
         (ExpressionKind::Trace(factors), _) => Summands { above: of_trace(factors.len(), n), ..ONE },
+        (ExpressionKind::PolynomialTrace(trace), _) => match &trace.products {
+            Some(products) => counted(products, n, found)?,
+            None => Summands { above: u64::MAX, ..ONE },
+        },
         _ => ONE,
     };
     if count.above <= MOST_SUMMANDS {

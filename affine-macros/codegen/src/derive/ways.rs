@@ -9,7 +9,7 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::rounding::Rounding;
 use crate::mechanics::charts::{Chart, Linear, Momentum};
-use crate::mechanics::potential::{Potential, Writing};
+use crate::mechanics::potential::{Potential, Way, Writing};
 use crate::optimise::{Batch, straight_line};
 use crate::symbol::{Quantity, Symbol};
 
@@ -133,12 +133,12 @@ impl Ways {
             }
             let chart = Chart::new(arena, n, *momentum, Some(Linear::Space));
             let drafts: Vec<Draft> = potential
-                .writings(arena, &chart)
+                .ways(arena, &chart)
                 .into_iter()
-                .map(|writing| Draft::new(arena, potential, &chart, writing))
+                .map(|way| Draft::new(arena, potential, &chart, way))
                 .collect();
             let chosen = |of: Potential, near: bool| match best(&drafts, near) {
-                Some(writing) => of.written(*momentum, writing),
+                Some(way) => of.written(*momentum, way),
                 None => of,
             };
             ways = Self {
@@ -152,7 +152,7 @@ impl Ways {
 
 /// Forces in one way of writing.
 struct Draft {
-    writing: Writing,
+    way: Way,
     weight: usize,
     /// What is lost at each place, in units of what the rounding of `phi` does, and of what that of `phi - 1` does where it is
     /// small; infinite where there is no value.
@@ -162,8 +162,9 @@ struct Draft {
 }
 
 impl Draft {
-    fn new(arena: &mut Arena, potential: &Potential, chart: &Chart, writing: Writing) -> Self {
-        let load = potential.load_in(arena, chart, writing);
+    fn new(arena: &mut Arena, potential: &Potential, chart: &Chart, way: Way) -> Self {
+        let load = potential.load_by(arena, chart, way);
+        let is_zero = load.forces.iter().all(|(_, force)| force.is_zero());
         let results =
             load.forces.into_iter().enumerate().map(|(k, (_, force))| (Quantity::Value.at([k]), force));
         let batch = Batch { shared: load.shared, kernels: load.kernels, results: results.collect() };
@@ -173,8 +174,12 @@ impl Draft {
         let mut constants = Constants::new(Quantity::Coefficient);
         let program = straight_line(arena, &batch, &mut constants, &|atom| inputs.contains(&atom));
         let parameters = parameters(arena, &constants);
-        let losses = PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect();
-        Self { writing, weight: program.operations().weight(), losses, calls: !program.calls.is_empty() }
+        let losses = match is_zero {
+            // Exactly, everywhere: terms of it cancel.
+            true => vec![[0.0; 2]; PLACES.len()],
+            false => PLACES.iter().map(|place| loss(&program, place, chart.dim, &parameters)).collect(),
+        };
+        Self { way, weight: program.operations().weight(), losses, calls: !program.calls.is_empty() }
     }
 }
 
@@ -247,16 +252,17 @@ impl<'a> Run<'a> {
 const NEAR: f64 = 1e-6;
 
 /// The lightest of those that are nowhere worse than the best there.
-fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
+fn best(drafts: &[Draft], near: bool) -> Option<Way> {
     // Principal stretches that are counted from the undeformed state keep their digits there by construction.
     if drafts.iter().any(|draft| draft.calls) {
-        return drafts.iter().map(|draft| draft.writing).find(|writing| writing.counts() == near);
+        return drafts.iter().map(|draft| draft.way).find(|way| way.writing.counts() == near);
     }
     // What is integrated may carry functions of `det phi`, and is written through its powers.
-    let drafts: Vec<&Draft> = drafts.iter().filter(|draft| near || !draft.writing.counts()).collect();
+    let mut drafts: Vec<&Draft> = drafts.iter().filter(|draft| near || !draft.way.writing.counts()).collect();
     // Powers of `D` that a motion carries leave the range of numbers later than those of a determinant, which is formed here.
-    if !near && drafts.iter().any(|draft| draft.writing == Writing::Isochoric) {
-        return Some(Writing::Isochoric);
+    let is_isochoric = |draft: &Draft| draft.way.writing == Writing::Isochoric;
+    if !near && drafts.iter().any(|draft| is_isochoric(draft)) {
+        drafts.retain(|draft| is_isochoric(draft));
     }
     let loss = |draft: &Draft, place: usize| draft.losses[place][usize::from(near)];
     let least = |place: usize| drafts.iter().map(|draft| loss(draft, place)).fold(f64::INFINITY, f64::min);
@@ -268,7 +274,7 @@ fn best(drafts: &[Draft], near: bool) -> Option<Writing> {
     };
     let good = drafts.iter().filter(|draft| excess(draft) <= 1.0).min_by_key(|draft| draft.weight);
     let least_bad = || drafts.iter().min_by(|a, b| excess(a).total_cmp(&excess(b)));
-    good.or_else(least_bad).map(|draft| draft.writing)
+    good.or_else(least_bad).map(|draft| draft.way)
 }
 
 /// What the program loses at a place.

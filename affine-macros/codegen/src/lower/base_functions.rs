@@ -2,25 +2,29 @@
 
 use super::components;
 use super::constant::constant;
+use super::traces::{self, entry};
 use crate::algebra::arena::Node;
-use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, MatrixName, numbered};
+use crate::spec::{Expression, ExpressionKind, numbered};
 use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
 pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
-    value(arena, n, e, Reading { difference, given: false })
+    value(arena, n, e, Reading { difference, ..Reading::default() })
 }
 
 /// How an expression is read.
-#[derive(Clone, Copy)]
-pub(super) struct Reading {
+#[derive(Clone, Copy, Default)]
+pub(super) struct Reading<'a> {
     /// What `d` stands for.
     pub(super) difference: Option<Expr>,
     /// Are components told from those in orthonormal bases?
     pub(super) given: bool,
+    /// Are traces of polynomials sums of traces of products?
+    pub(super) multiplied_out: bool,
+    /// Values of traces, and what stands for them.
+    pub(super) named: &'a [(Expr, Expr)],
 }
 
 pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
@@ -74,7 +78,9 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
             let a = of(arena, a)?;
             Some(applied(arena, *function, a))
         }
-        ExpressionKind::Trace(factors) => trace(arena, n, factors),
+        ExpressionKind::Trace(_) | ExpressionKind::PolynomialTrace(_) => trace(arena, n, e, reading),
+        // Only within traces.
+        ExpressionKind::Matrix(_) => None,
         ExpressionKind::InverseTrace(_) => {
             let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
             arena.div(above?, below?)
@@ -164,90 +170,13 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
     }
 }
 
-fn entry(matrix: MatrixName, row: usize, column: usize) -> Base {
-    match matrix {
-        MatrixName::Green => Base::Green(row.min(column), row.max(column)),
-        MatrixName::Finger => Base::Finger(row.min(column), row.max(column)),
-        MatrixName::Placement => Base::Placement(row, column),
+/// A trace, or what stands for it.
+fn trace(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
+    if let (true, ExpressionKind::PolynomialTrace(trace)) = (reading.multiplied_out, &e.kind) {
+        return value(arena, n, trace.products.as_ref()?, reading);
     }
-}
-
-/// `tr G = tr Ct` and likewise of squares and cubes are base functions. Other products are sums over their inner indices, and
-/// stay such sums: of `tr(A B)` with `A` and `B` of half the factors each.
-fn trace(arena: &mut Arena, n: usize, factors: &[MatrixName]) -> Option<Expr> {
-    let first = *factors.first()?;
-    if first != MatrixName::Placement && factors.iter().all(|factor| *factor == first) {
-        match factors.len() {
-            1 => return Some(Base::Trace.symbol(arena)),
-            2 => return Some(Base::TraceOfSquare.symbol(arena)),
-            3 => return Some(Base::TraceOfCube.symbol(arena)),
-            _ => {}
-        }
-    }
-    let mut matrices = runs(arena, n, factors);
-    while matrices.len() > 2 {
-        matrices = matrices
-            .chunks(2)
-            .map(|pair| pair.iter().skip(1).fold(pair[0].clone(), |left, right| times(arena, &left, right)))
-            .collect();
-    }
-    let mut sum = Vec::new();
-    for a in 0..n {
-        match matrices.as_slice() {
-            [one] => sum.push((one[a][a], Rational::ONE)),
-            [one, other] => (0..n).for_each(|b| sum.push((arena.mul(one[a][b], other[b][a]), Rational::ONE))),
-            _ => return None,
-        }
-    }
-    Some(arena.linear(&sum))
-}
-
-/// The powers of matrices that a product consists of, halved where it is one power. A trace may begin at any factor.
-fn runs(arena: &mut Arena, n: usize, factors: &[MatrixName]) -> Vec<Square<Expr>> {
-    let begin = factors.windows(2).position(|pair| pair[0] != pair[1]).map_or(0, |last| last + 1);
-    let factors = [&factors[begin..], &factors[..begin]].concat();
-    let mut powers: Vec<(MatrixName, usize)> =
-        factors.chunk_by(|one, other| one == other).map(|run| (run[0], run.len())).collect();
-    if let [(name, power @ 2..)] = powers[..] {
-        powers = vec![(name, power / 2), (name, power - power / 2)];
-    }
-    let matrix = |arena: &mut Arena, name| -> Square<Expr> {
-        (0..n).map(|a| (0..n).map(|b| entry(name, a, b).symbol(arena)).collect()).collect()
-    };
-    powers
-        .into_iter()
-        .map(|(name, power)| {
-            let matrix = matrix(arena, name);
-            raised(arena, &matrix, power)
-        })
-        .collect()
-}
-
-/// A power of a matrix by squares.
-fn raised(arena: &mut Arena, matrix: &Square<Expr>, power: usize) -> Square<Expr> {
-    if power < 2 {
-        return matrix.clone();
-    }
-    let half = raised(arena, matrix, power / 2);
-    let square = times(arena, &half, &half);
-    if power.is_multiple_of(2) {
-        return square;
-    }
-    let mut product = times(arena, &square, matrix);
-    let is_symmetric = matrix.iter().enumerate().all(|(a, row)| (0..a).all(|b| row[b] == matrix[b][a]));
-    if is_symmetric {
-        (0..product.len()).for_each(|a| (0..a).for_each(|b| product[a][b] = product[b][a]));
-    }
-    product
-}
-
-/// The product of two matrices, whose entries stay sums of products.
-fn times(arena: &mut Arena, left: &Square<Expr>, right: &Square<Expr>) -> Square<Expr> {
-    let n = left.len();
-    let mut entry = |i: usize, j: usize| {
-        let products: Vec<(Expr, Rational)> =
-            (0..n).map(|k| (arena.mul(left[i][k], right[k][j]), Rational::ONE)).collect();
-        arena.linear(&products)
-    };
-    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    // Traces within traces are numbers among others.
+    let inside = Reading { named: &[], ..reading };
+    let trace = traces::value(arena, n, e, &|arena, part| value(arena, n, part, inside))?;
+    Some(reading.named.iter().find(|(known, _)| *known == trace).map_or(trace, |(_, symbol)| *symbol))
 }

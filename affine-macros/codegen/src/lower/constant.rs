@@ -27,6 +27,8 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
         ExpressionKind::FieldEntry(..)
         | ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
+        | ExpressionKind::PolynomialTrace(_)
+        | ExpressionKind::Matrix(_)
         | ExpressionKind::InverseTrace(_)
         | ExpressionKind::Entry(..)
         | ExpressionKind::Component(_)

@@ -99,7 +99,7 @@ impl Guards<'_> {
     }
 
     fn value(&mut self, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
-        value(self.arena, self.n, e, Reading { difference, given: self.given })
+        value(self.arena, self.n, e, Reading { difference, given: self.given, ..Reading::default() })
     }
 
     /// One more guard, unless it holds everywhere, is there already, or is one of numbers and fields, which are looked at

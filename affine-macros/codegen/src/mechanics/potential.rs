@@ -39,7 +39,7 @@ pub use base::Base;
 pub use domain::{Bound, Guard};
 use invariance::Evidence;
 use restriction::restricted;
-pub use writing::Writing;
+pub use writing::{Way, Writing};
 
 /// A potential.
 #[derive(Clone, Debug)]
@@ -48,11 +48,13 @@ pub struct Potential {
     /// `U` as an expression in base functions and parameters.
     pub energy: Expr,
     slopes: Vec<(Base, Expr)>,
+    /// The slopes of the same energy in another form.
+    other_slopes: Option<Vec<(Base, Expr)>>,
     time: Option<Expr>,
     invariance: Evidence,
     domain: Vec<Guard>,
     /// How its forces are written beside a momentum.
-    writings: Vec<(Momentum, Writing)>,
+    writings: Vec<(Momentum, Way)>,
 }
 
 impl Potential {
@@ -60,8 +62,33 @@ impl Potential {
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::new(arena, dim, &slopes, None);
+        Self::of(arena, dim, energy, slopes, invariance)
+    }
+
+    fn of(
+        arena: &mut Arena,
+        dim: usize,
+        energy: Expr,
+        slopes: Vec<(Base, Expr)>,
+        invariance: Evidence,
+    ) -> Self {
         let time = Self::time_in(arena, energy);
-        Self { dim, energy, slopes, time, invariance, domain: Vec::new(), writings: Vec::new() }
+        let (domain, writings) = (Vec::new(), Vec::new());
+        Self { dim, energy, slopes, other_slopes: None, time, invariance, domain, writings }
+    }
+
+    /// The same with slopes that are known from how the energy is written, in place of those that its expression has.
+    #[must_use]
+    pub fn with_slopes(self, arena: &Arena, slopes: Vec<(Base, Expr)>) -> Self {
+        let slopes = slopes.into_iter().filter(|(_, slope)| !vanishes(arena, *slope)).collect();
+        Self { slopes, ..self }
+    }
+
+    /// The same with the slopes of another expression of the energy as another way to write its forces.
+    #[must_use]
+    pub fn or_by(self, arena: &mut Arena, energy: Expr) -> Self {
+        let other_slopes = Some(Self::slopes(arena, self.dim, energy));
+        Self { other_slopes, ..self }
     }
 
     /// The potential on the group of a constraint, within its domain; `None` where it has no value there.
@@ -75,8 +102,7 @@ impl Potential {
         let domain = domain::confined(arena, dim, domain, group)?;
         let slopes = Self::slopes(arena, dim, energy);
         let invariance = Evidence::new(arena, dim, &slopes, Some(group));
-        let time = Self::time_in(arena, energy);
-        Some(Self { dim, energy, slopes, time, invariance, domain, writings: Vec::new() })
+        Some(Self::of(arena, dim, energy, slopes, invariance).within(domain))
     }
 
     /// Does it change along no velocity that the constraint leaves free?

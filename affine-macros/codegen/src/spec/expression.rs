@@ -43,6 +43,10 @@ pub enum ExpressionKind {
     Call(Function, Box<Expression>),
     /// `tr(G*Ct)`: the trace of a product, factor by factor.
     Trace(Vec<MatrixName>),
+    /// `tr((G + Ct)^4)`: the trace of a polynomial in matrices.
+    PolynomialTrace(PolynomialTrace),
+    /// `G` in such a polynomial.
+    Matrix(MatrixName),
     /// `tr(G^-1) = tr(Ct^-1) = e_(n-1)/e_n`, in the invariants of `G`.
     InverseTrace(MatrixName),
     /// `G[1,2]`: row and column.
@@ -53,6 +57,43 @@ pub enum ExpressionKind {
     Norm,
     /// `pairs(f(d))`: the sum of f(q_a - q_b) over a < b; inside, `d` stands for the difference.
     Pairs(Box<Expression>),
+}
+
+/// The trace of a polynomial in matrices.
+#[derive(Clone, Debug)]
+pub struct PolynomialTrace {
+    /// The polynomial as it is written, with [`ExpressionKind::Matrix`] for its matrices.
+    pub written: Box<Expression>,
+    /// The sum of the traces of its products, where these are few.
+    pub products: Option<Box<Expression>>,
+}
+
+impl PolynomialTrace {
+    /// Its matrices, as often as they stand there, and the last one of a power once more for each further factor: no fewer than
+    /// products of matrices are computed.
+    #[must_use]
+    pub fn matrices(&self) -> Vec<MatrixName> {
+        matrices(&self.written)
+    }
+}
+
+/// The same in a part; those of traces within it are counted there.
+fn matrices(part: &Expression) -> Vec<MatrixName> {
+    match &part.kind {
+        ExpressionKind::Matrix(matrix) => vec![*matrix],
+        ExpressionKind::PolynomialTrace(_) => Vec::new(),
+        ExpressionKind::Power(base, exponent) => {
+            let mut list = matrices(base);
+            let more = match &exponent.kind {
+                ExpressionKind::Number(power) => power.to_i64().and_then(|k| usize::try_from(k - 1).ok()),
+                _ => None,
+            };
+            let last = list.last().copied();
+            list.extend(last.into_iter().flat_map(|last| vec![last; more.unwrap_or(0)]));
+            list
+        }
+        _ => part.operands().into_iter().flat_map(matrices).collect(),
+    }
 }
 
 /// The n x n matrices of a potential.
@@ -129,10 +170,12 @@ impl Expression {
             | ExpressionKind::Symbol(_)
             | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Trace(_)
+            | ExpressionKind::Matrix(_)
             | ExpressionKind::InverseTrace(_)
             | ExpressionKind::Entry(..)
             | ExpressionKind::Component(_)
             | ExpressionKind::Norm => Vec::new(),
+            ExpressionKind::PolynomialTrace(trace) => vec![&trace.written],
             ExpressionKind::Negate(one) | ExpressionKind::Call(_, one) | ExpressionKind::Pairs(one) => {
                 vec![one]
             }
@@ -151,6 +194,8 @@ impl Expression {
             | ExpressionKind::FieldEntry(..)
             | ExpressionKind::Call(..)
             | ExpressionKind::Trace(_)
+            | ExpressionKind::PolynomialTrace(_)
+            | ExpressionKind::Matrix(_)
             | ExpressionKind::InverseTrace(_)
             | ExpressionKind::Entry(..)
             | ExpressionKind::Component(_)
@@ -195,6 +240,8 @@ impl Expression {
                 let names: Vec<&str> = factors.iter().map(|factor| factor.name()).collect();
                 write!(f, "tr({})", names.join("*"))?;
             }
+            ExpressionKind::PolynomialTrace(trace) => write!(f, "tr({})", trace.written)?,
+            ExpressionKind::Matrix(matrix) => f.write_str(matrix.name())?,
             ExpressionKind::InverseTrace(matrix) => write!(f, "tr({}^-1)", matrix.name())?,
             ExpressionKind::Entry(matrix, row, column) => write!(f, "{}[{row},{column}]", matrix.name())?,
             ExpressionKind::Component(index) => write!(f, "x[{index}]")?,

@@ -38,7 +38,7 @@ quantities! {
     SecondInvariant "second_invariant" InverseTensor "inverse_tensor" Cofactor "cofactor"
     Determinant "det" InverseDeterminant "inverse_det" InverseDeterminantSquared "inverse_det_squared"
     Dilatation "dilatation" InverseDilatation "inverse_dilatation" MeanLogStretch "q"
-    DilatationSquared "square" InverseDilatationSquared "inverse_square"
+    Expansion "expansion" DilatationSquared "square" InverseDilatationSquared "inverse_square"
     LogStretches "q" Difference "d" LogStretchMomenta "p" Stretches "stretch" StretchMomenta "p"
     InverseStretch "inverse_stretch" StretchSquared "square" Axis "axis" StretchedAxis "stretched"
     // Of `Psi = phi/D`.
@@ -57,7 +57,7 @@ quantities! {
     BesideGreen "beside_green" BesideFinger "beside_finger" BesideDeterminant "beside_det"
     LessOne "less" MoreOne "more"
     // Potentials.
-    Raised "raised" Pressure "pressure" Tension "tension" Stress "stress" MeanStress "mean_stress" Piola "piola"
+    PolynomialTrace "polynomial_trace" Raised "raised" Pressure "pressure" Tension "tension" Stress "stress" MeanStress "mean_stress" Piola "piola"
     Swelling "swelling" Offset "offset" SlopeByGreen "slope_green" SlopeByFinger "slope_finger"
     SlopeByPlacement "slope_phi" SlopeByPosition "slope_x" SlopeByPulledBack "slope_pulled_back"
     PulledBack "pulled_back" PushedForward "pushed_forward" PulledBackSquare "pulled_back_square"

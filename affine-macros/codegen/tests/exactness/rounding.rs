@@ -5,7 +5,7 @@ use affine_codegen::algebra::bind::Constants;
 use affine_codegen::algebra::{Arena, Expr, Function, Rational};
 use affine_codegen::ir::Program;
 use affine_codegen::mechanics::charts::{Chart, Momentum};
-use affine_codegen::mechanics::potential::{Base, Potential, Writing};
+use affine_codegen::mechanics::potential::{Base, Potential, Way};
 use affine_codegen::optimise::{Batch, straight_line};
 use affine_codegen::symbol::{Quantity, Symbol};
 
@@ -51,8 +51,8 @@ fn energies(arena: &mut Arena) -> Vec<Expr> {
 }
 
 /// The force on the affine momentum.
-fn program(arena: &mut Arena, potential: &Potential, chart: &Chart, writing: Writing) -> Program {
-    let load = potential.load_in(arena, chart, writing);
+fn program(arena: &mut Arena, potential: &Potential, chart: &Chart, way: Way) -> Program {
+    let load = potential.load_by(arena, chart, way);
     let results = load.forces.into_iter().enumerate();
     let results = results.map(|(k, (_, force))| (Quantity::Value.at([k]), force)).collect();
     let batch = Batch { shared: load.shared, kernels: load.kernels, results }.pruned(arena);
@@ -104,24 +104,24 @@ fn bounds_tell_what_runs_tell() {
         let chart = Chart::new(arena, N, Momentum::Canonical, None);
         for m in [2, 7, 13, 20] {
             let mut ways = Vec::new();
-            for writing in potential.writings(arena, &chart) {
-                let program = program(arena, &potential, &chart, writing);
+            for way in potential.ways(arena, &chart) {
+                let program = program(arena, &potential, &chart, way);
                 let runs: Vec<_> = (0..6).filter_map(|draw| lost(&program, m, draw)).collect();
                 // Roots have no exact values.
                 if runs.is_empty() {
                     continue;
                 }
                 for (error, bound) in &runs {
-                    assert!(error <= bound, "{writing:?} 2^-{m}: {error:e} {bound:e}");
+                    assert!(error <= bound, "{way:?} 2^-{m}: {error:e} {bound:e}");
                 }
                 let worst = |part: fn(&(f64, f64)) -> f64| runs.iter().map(part).fold(0.0, f64::max);
                 let (error, bound) = (worst(|run| run.0), worst(|run| run.1));
-                assert!(error > bound / 100.0, "{writing:?} 2^-{m}: {error:e} {bound:e}");
-                ways.push((writing, error, bound));
+                assert!(error > bound / 100.0, "{way:?} 2^-{m}: {error:e} {bound:e}");
+                ways.push((way, error, bound));
             }
-            for (writing, error, bound) in &ways {
+            for (way, error, bound) in &ways {
                 for (other, less, least) in ways.iter().filter(|(_, _, least)| 100.0 * least < *bound) {
-                    assert!(less < error, "{writing:?} and {other:?} 2^-{m}: {least:e} {bound:e}");
+                    assert!(less < error, "{way:?} and {other:?} 2^-{m}: {least:e} {bound:e}");
                     compared += 1;
                 }
             }

@@ -48,7 +48,7 @@ pub(super) enum Along {
 
 impl Base {
     /// All base functions in dimension `n`.
-    pub(super) fn all(n: usize) -> Vec<Self> {
+    pub fn all(n: usize) -> Vec<Self> {
         let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
         let upper = || pairs().filter(|(a, b)| a <= b);
         let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];

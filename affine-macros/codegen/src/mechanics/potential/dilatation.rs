@@ -62,7 +62,8 @@ impl Potential {
             }
         };
         let own = slope.derivative(arena)?;
-        let mut rest = self.clone();
+        // The other slopes hold all of it.
+        let mut rest = Self { other_slopes: None, ..self.clone() };
         let partial = &mut rest.slopes[place].1;
         *partial = arena.linear(&[(*partial, Rational::ONE), (own, Rational::MINUS_ONE)]);
         let left = through_dilatation(arena, *partial);

@@ -29,11 +29,11 @@ pub(super) struct Draft<'a> {
 impl Potential {
     /// What it adds to Hamilton's equations of a chart, in the way that was [chosen](Self::written) for the chart.
     pub fn load(&self, arena: &mut Arena, chart: &Chart) -> Load {
-        self.load_in(arena, chart, self.writing(chart))
+        self.load_by(arena, chart, self.way(chart))
     }
 
-    /// The same in a given way of writing.
-    pub fn load_in(&self, arena: &mut Arena, chart: &Chart, writing: Writing) -> Load {
+    /// The same with its slopes in a given way of writing.
+    pub(super) fn load_in(&self, arena: &mut Arena, chart: &Chart, writing: Writing) -> Load {
         let along = match chart.momentum {
             Momentum::Body => Along::Body,
             Momentum::Space | Momentum::Total => Along::Space,

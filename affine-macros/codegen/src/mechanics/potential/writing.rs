@@ -39,6 +39,15 @@ pub enum Writing {
     Isochoric,
 }
 
+/// The form of the slopes, and how forces are written with them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Way {
+    /// Are they the other slopes of the potential?
+    pub other_slopes: bool,
+    /// How forces are written.
+    pub writing: Writing,
+}
+
 /// What a way of writing works with.
 pub(super) enum Means {
     Plain(Volume),
@@ -67,7 +76,36 @@ impl Writing {
 
 impl Potential {
     /// The ways in which its forces in a chart may be written.
-    pub fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
+    pub fn ways(&self, arena: &mut Arena, chart: &Chart) -> Vec<Way> {
+        let ways = |slopes: &Self, arena: &mut Arena, other_slopes: bool| -> Vec<Way> {
+            let writings = slopes.writings(arena, chart).into_iter();
+            writings.map(|writing| Way { other_slopes, writing }).collect()
+        };
+        let mut list = ways(self, arena, false);
+        if let Some(other) = self.by_other_slopes() {
+            list.extend(ways(&other, arena, true));
+        }
+        list
+    }
+
+    /// The same with the other slopes alone, if there are any.
+    fn by_other_slopes(&self) -> Option<Self> {
+        let slopes = self.other_slopes.clone()?;
+        Some(Self { slopes, other_slopes: None, ..self.clone() })
+    }
+
+    /// What it adds to Hamilton's equations of a chart in a given way.
+    pub fn load_by(&self, arena: &mut Arena, chart: &Chart, way: Way) -> Load {
+        match (way.other_slopes, self.by_other_slopes()) {
+            (false, _) => self.load_in(arena, chart, way.writing),
+            (true, Some(other)) => other.load_in(arena, chart, way.writing),
+            // What is left of a potential may have no others.
+            (true, None) => self.load_in(arena, chart, Writing::Plain),
+        }
+    }
+
+    /// The ways of writing forces with its slopes.
+    fn writings(&self, arena: &mut Arena, chart: &Chart) -> Vec<Writing> {
         if chart.confined.is_some() {
             return vec![Writing::Plain];
         }
@@ -75,7 +113,10 @@ impl Potential {
             return vec![Writing::Plain, Writing::Differences];
         }
         let mut list = vec![Writing::Plain, Writing::Differences];
-        if self.slopes.iter().all(|(base, _)| *base != Base::TraceOfCube) {
+        let any = |wanted: &[Base]| self.slopes.iter().any(|(base, _)| wanted.contains(base));
+        // Of entries of tensors alone it is the way before.
+        let has_mean = any(&[Base::Trace, Base::TraceOfSquare, Base::MeanLogStretch]);
+        if has_mean && !any(&[Base::TraceOfCube]) {
             list.push(Writing::Deviators);
             list.extend(self.is_of_minors(arena).then_some(Writing::Inverses));
         }
@@ -87,13 +128,13 @@ impl Potential {
 
     /// The same potential with a way of writing its forces beside a momentum.
     #[must_use]
-    pub fn written(mut self, momentum: Momentum, writing: Writing) -> Self {
-        self.writings.push((momentum, writing));
+    pub fn written(mut self, momentum: Momentum, way: Way) -> Self {
+        self.writings.push((momentum, way));
         self
     }
 
     /// The way that was chosen for a chart.
-    pub(super) fn writing(&self, chart: &Chart) -> Writing {
+    pub(super) fn way(&self, chart: &Chart) -> Way {
         let momentum = match chart.momentum {
             // The same forces stand beside it.
             Momentum::Total => Momentum::Space,
@@ -101,8 +142,8 @@ impl Potential {
         };
         let chosen = self.writings.iter().find(|(known, _)| *known == momentum);
         match chart.confined {
-            None => chosen.map_or(Writing::Plain, |(_, writing)| *writing),
-            Some(_) => Writing::Plain,
+            None => chosen.map_or(Way::default(), |(_, way)| *way),
+            Some(_) => Way::default(),
         }
     }
 

@@ -99,14 +99,19 @@ fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) ->
         Momentum::Body | Momentum::Space | Momentum::Total => trace_of_velocity(arena, chart),
         Momentum::Canonical => flat_expansion(arena, chart, &system, r),
     };
-    let order = i64::try_from(chart.dim).ok()?;
+    let mut expansion = expansion.scaled(&Rational::one_over(chart.dim));
+    if carries_r && takes_q {
+        // r' = -r q'
+        let shared = arena.symbol(Quantity::Expansion);
+        system.shared.push((shared, expansion));
+        expansion = Polynomial::atom(shared);
+    }
     if carries_r {
-        let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::ratio(-1, order)?);
+        let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::MINUS_ONE);
         system.rates.push((Coordinate::Carried(r), r, rate));
     }
     if takes_q {
-        let rate = expansion.scaled(&Rational::ratio(1, order)?);
-        system.rates.push((Coordinate::Carried(q), q, rate));
+        system.rates.push((Coordinate::Carried(q), q, expansion));
     }
     Some((system, inverts))
 }

@@ -10,10 +10,12 @@ use crate::algebra::Rational;
 use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported, TracedPart};
 use crate::spec::entries::shortened;
 use crate::spec::names::Named;
-use crate::spec::{Expression, ExpressionKind, MatrixName, Operator, textbook};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator, PolynomialTrace, textbook};
 
 /// The highest power of a matrix in a trace: that of a number in a potential.
 const LARGEST_POWER: u32 = 16;
+/// Products that are longer together are not told apart.
+const MOST_FACTORS: usize = 32;
 /// The largest degree of a potential.
 const LARGEST_DEGREE: u64 = 64;
 
@@ -25,7 +27,17 @@ impl Parser<'_> {
         let written = self.effort.operators - before;
         let mut scalars = Scalars::default();
         let words = self.words(&inside, &mut scalars)?;
-        let Some(sum) = words.trace(&scalars, span) else {
+        if words.is_long && words.inverts {
+            let limit = "64 summands beside an inverse";
+            return Err(self.found.report(span, ExpressionMistake::ExpressionSize { limit }));
+        }
+        let sum = words.trace(&scalars, span);
+        if words.is_long || !words.inverts && !words.is_of_invariants() {
+            let products = sum.filter(|_| words.factors() <= MOST_FACTORS).map(Box::new);
+            let written = Box::new(of_matrices(&inside));
+            return Ok(ExpressionKind::PolynomialTrace(PolynomialTrace { written, products }));
+        }
+        let Some(sum) = sum else {
             return Err(self.refused(&inside, inside.span, TracedPart::Inverse));
         };
         // What the brackets come to counts where it is longer than what was written.
@@ -42,19 +54,19 @@ impl Parser<'_> {
             ExpressionKind::Negate(one) => self.words(one, scalars)?.scaled(&-&Rational::ONE),
             ExpressionKind::Add(left, right) => {
                 let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                self.bounded(left.sum(right), part)?
+                left.sum(right)
             }
             ExpressionKind::Subtract(left, right) => {
                 let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                self.bounded(left.sum(right.scaled(&-&Rational::ONE)), part)?
+                left.sum(right.scaled(&-&Rational::ONE))
             }
             ExpressionKind::Multiply(left, right) => {
                 let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                self.bounded(left.product(&right), part)?
+                left.product(&right)
             }
             ExpressionKind::Divide(dividend, divisor) => {
                 let (dividend, inverse) = (self.words(dividend, scalars)?, self.inverse(divisor, scalars)?);
-                self.bounded(dividend.product(&inverse), part)?
+                dividend.product(&inverse)
             }
             ExpressionKind::Power(base, exponent) => self.matrix_power(base, exponent, part, scalars)?,
             _ => match matrix(part) {
@@ -110,15 +122,10 @@ impl Parser<'_> {
         }
         let mut result = Words::number(Rational::ONE);
         for _ in 0..power {
-            result = self.bounded(result.product(words), part)?;
+            result = result.product(words);
         }
         result.degree = degree.max(1);
         Ok(result)
-    }
-
-    fn bounded(&mut self, words: Option<Words>, part: &Expression) -> Result<Words, Reported> {
-        let limit = "64 summands within a trace";
-        words.ok_or_else(|| self.found.report(part.span, ExpressionMistake::ExpressionSize { limit }))
     }
 
     /// `phi^T`, also of a name of textbooks; of no base may an exponent be a name.
@@ -151,6 +158,22 @@ fn matrix(part: &Expression) -> Option<MatrixName> {
 
 fn has_matrix(part: &Expression) -> bool {
     matrix(part).is_some() || part.operands().into_iter().any(has_matrix)
+}
+
+/// The polynomial with its matrices as such; other names are those of scalars.
+fn of_matrices(part: &Expression) -> Expression {
+    let of = |part: &Expression| Box::new(of_matrices(part));
+    let kind = match (&part.kind, matrix(part)) {
+        (_, Some(matrix)) => ExpressionKind::Matrix(matrix),
+        (ExpressionKind::Negate(one), _) => ExpressionKind::Negate(of(one)),
+        (ExpressionKind::Add(left, right), _) => ExpressionKind::Add(of(left), of(right)),
+        (ExpressionKind::Subtract(left, right), _) => ExpressionKind::Subtract(of(left), of(right)),
+        (ExpressionKind::Multiply(left, right), _) => ExpressionKind::Multiply(of(left), of(right)),
+        (ExpressionKind::Divide(left, right), _) => ExpressionKind::Divide(of(left), of(right)),
+        (ExpressionKind::Power(left, right), _) => ExpressionKind::Power(of(left), of(right)),
+        (other, _) => other.clone(),
+    };
+    Expression { kind, span: part.span }
 }
 
 /// A part without matrices: numbers are merged where they meet, and the rest stands as it is written.

@@ -28,7 +28,12 @@ struct Summand {
 /// A sum of words; numbers and scalars commute with matrices, which do not commute with each other.
 #[derive(Clone)]
 pub(super) struct Words {
+    /// None of them where they are too many.
     summands: Vec<Summand>,
+    /// Are they too many?
+    pub(super) is_long: bool,
+    /// Does an inverse stand in it?
+    pub(super) inverts: bool,
     /// The degree in matrices, numbers and scalars, which bounds the length of words and the digits of numbers.
     pub(super) degree: u64,
 }
@@ -56,7 +61,8 @@ impl Scalars {
 
 impl Words {
     fn one(summand: Summand) -> Self {
-        Self { summands: vec![summand], degree: 1 }
+        let inverts = summand.word.iter().any(|letter| letter.is_inverse);
+        Self { summands: vec![summand], is_long: false, inverts, degree: 1 }
     }
 
     /// That multiple of the identity.
@@ -85,26 +91,47 @@ impl Words {
         self
     }
 
-    /// The sum, or `None` where it has too many summands.
-    pub(super) fn sum(mut self, other: Self) -> Option<Self> {
+    /// The sum.
+    pub(super) fn sum(mut self, other: Self) -> Self {
         self.degree = self.degree.max(other.degree);
+        self.is_long |= other.is_long;
+        self.inverts |= other.inverts;
         other.summands.into_iter().for_each(|summand| self.add(summand));
         self.bounded()
     }
 
-    /// The product, or `None` where it has too many summands.
-    pub(super) fn product(&self, other: &Self) -> Option<Self> {
-        let degree = self.degree.saturating_add(other.degree);
-        let mut product = Self { summands: Vec::new(), degree };
+    /// The product.
+    pub(super) fn product(&self, other: &Self) -> Self {
+        let mut product = Self {
+            summands: Vec::new(),
+            is_long: self.is_long || other.is_long,
+            inverts: self.inverts || other.inverts,
+            degree: self.degree.saturating_add(other.degree),
+        };
         for left in &self.summands {
             other.summands.iter().for_each(|right| product.add(left.times(right)));
-            product = product.bounded()?;
+            product = product.bounded();
         }
-        Some(product)
+        product
     }
 
-    fn bounded(self) -> Option<Self> {
-        (self.summands.len() <= MOST_SUMMANDS).then_some(self)
+    fn bounded(mut self) -> Self {
+        self.is_long |= self.summands.len() > MOST_SUMMANDS;
+        if self.is_long {
+            self.summands.clear();
+        }
+        self
+    }
+
+    /// Is the trace of each word a number, or an invariant that potentials have a name for? And likewise if there is one word
+    /// alone, nothing is to be gained from how it was written.
+    pub(super) fn is_of_invariants(&self) -> bool {
+        self.summands.len() == 1 || self.summands.iter().all(|summand| is_invariant(&summand.word))
+    }
+
+    /// How many factors all words have.
+    pub(super) fn factors(&self) -> usize {
+        self.summands.iter().map(|summand| summand.word.len()).sum()
     }
 
     /// Adds a summand, to its like if there is one.
@@ -165,6 +192,12 @@ impl Summand {
         let product = factors.into_iter().reduce(|left, right| Operator::Multiply.apply(left, right))?;
         Some((if is_negative { Operator::Subtract } else { Operator::Add }, product))
     }
+}
+
+/// `tr 1`, `tr phi`, and `tr G^k` up to `k = 3`.
+fn is_invariant(word: &[Letter]) -> bool {
+    let alike = word.windows(2).all(|pair| pair[0] == pair[1] && pair[0].matrix != MatrixName::Placement);
+    alike && word.len() <= 3
 }
 
 /// `tr 1 = n`.
