@@ -259,6 +259,7 @@ use proc_macro::TokenStream;
 /// | `emit(splitting)` | `custom(field, form)` in `forces` | a force is a piece of its own where it depends on positions alone, and is said to: `custom(field, form, position)` |
 /// | `emit(nystrom)` | a constraint | Nystrom methods integrate q'' = f(t, q); a constraint acts by forces that depend on velocities |
 /// | `emit(nystrom)` | a kinetic energy of affine velocities, a mass matrix that depends on `phi` | Nystrom methods integrate q'' = f(t, q); the mass matrix of phi_dot depends on phi here, and phi'' on phi_dot |
+/// | `emit(nystrom)` | `body_translation` | Nystrom methods integrate q'' = f(t, q); the weight of the centre depends on phi here, and x'' on phi_dot |
 /// | `emit(nystrom)` | a motion without a potential | a body that nothing acts on moves in a straight line, phi = phi0 + t phi_dot0, known in closed form |
 /// | `emit(nystrom)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces` | Nystrom methods integrate q'' = f(t, q); friction and the work of a force depend on velocities |
 /// | `emit(two_polar)` | `metrics(...)` | (q, p, M, N) of (6.2) to (6.5) describe the internal motion on GL(n) alone, in orthonormal coordinates |
@@ -269,6 +270,7 @@ use proc_macro::TokenStream;
 /// | `emit(two_polar)` | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | its equations follow from T and potentials that are formulas |
 /// | `emit(ratios)` | a potential, a kinetic energy of `phi_dot` | in exp(q_b - q_a), M + N and M - N the lattice of the Casimirs is rational, (6.2) to (6.4); forces of a potential and (6.5) are not |
 /// | `emit(balance)` | a kinetic energy of affine velocities, a constraint, `metrics(...)` | K = phi Pi, phi J phi_dot^T of (2.1), is balanced against phi_dot and Pi (3.6): for energies with a term in phi_dot, or terms of space and body, of a motion on all of GL(n) in orthonormal coordinates |
+/// | `emit(metric)` | `casimir3` | the velocity is quadratic in the momentum, and the kinetic energy no quadratic form of velocities |
 /// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | `casimir3` | what it leaves conserved is decided for velocities that are linear in the momenta |
 /// | `dissipation(...)`, `custom(field, form)` in `forces`, `custom(field, form, position)` in `forces`, `custom(field, class)` in `potential`, `self_gravity(k)` | `group = unitary` | the lattice of U(n) is that of the Casimir terms alone |
 /// | a constraint | `metrics(...)` | the group of a constraint is that of orthonormal bases, and points stand in others |

@@ -58,8 +58,6 @@ pub const IN_FULL: &[Specimen] = specimens! {
         potential = tr(G)/2 - ln(det)";
     balance_2: "dim = 2, kinetic(dalembert = diag(1, 2), space_translation = 2), potential = tr(G)/2 + x[1], \
         emit(balance)";
-    driven_by_time_alone_2: "dim = 2, kinetic(dalembert = 1), potential = cos(t)";
-    isochoric_sum_2: "dim = 2, constraint = isochoric, kinetic(dalembert = diag(1, 2), casimir2 = 0.2)";
     splitting_missile_2: "dim = 2, emit(splitting), kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1), \
         potential = hyperbolic_dilatation(10) + neo_hookean(0.5)";
     fields_left_missile_3: "dim = 3, require(positive_definite), \
@@ -91,9 +89,6 @@ pub const IN_FULL: &[Specimen] = specimens! {
     two_polar_fields_2: "dim = 2, kinetic(casimir2 = a, body_inertia = i), potential = neo_hookean(c), emit(two_polar)",
         "/// A lattice of two stretches.
         pub struct Lattice { a: f64, i: f64, c: f64 }";
-    unitary_fields_3: "dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary",
-        "/// A lattice of three angles.
-        pub struct Lattice { a: f64 }";
     fields_metrics_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), metrics(space = g)",
         "/// A body.
         pub struct Field { g: [[f64; 2]; 2] }";
@@ -322,4 +317,9 @@ pub const BY_EQUATIONS: &[Specimen] = specimens! {
          kinetic(casimir2 = 0.2, body_inertia = [[1.5, 0.25], [0.25, 2]])",
         "/// A body in oblique axes.
         pub struct Oblique;";
+    isochoric_sum_2: "dim = 2, constraint = isochoric, kinetic(dalembert = diag(1, 2), casimir2 = 0.2)";
+    unitary_fields_3: "dim = 3, kinetic(casimir2 = a, casimir1_squared = 0.3), group = unitary",
+        "/// A lattice of three angles.
+        pub struct Lattice { a: f64 }";
+    driven_by_time_alone_2: "dim = 2, kinetic(dalembert = 1), potential = cos(t)";
 };

@@ -9,7 +9,9 @@ mod items;
 mod summary;
 
 use std::collections::BTreeSet;
+use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use affine_codegen::expand;
@@ -65,6 +67,19 @@ fn in_full() {
 #[test]
 fn by_equations() {
     compare(&REVIEWED_BY_EQUATIONS, EQUATIONS);
+}
+
+/// What is read after a change, a person can read.
+#[test]
+fn all_together_are_short() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("snapshots");
+    let lines = |folder: PathBuf| -> usize {
+        let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let snapshots = files.filter(|path| path.extension().is_some_and(|extension| extension == "snap"));
+        snapshots.map(|path| fs::read_to_string(path).unwrap().lines().count()).sum()
+    };
+    let all = lines(folder.join(FULL)) + lines(folder.join(EQUATIONS));
+    assert!(all < 20_000, "{all} lines");
 }
 
 /// What no full snapshot shows, nobody reviews.

@@ -71,7 +71,7 @@ pub fn forces(
             customs.push(Custom::self_gravity(customs.len() + 1, strength));
         }
     }
-    Forces { dissipation, customs, driven: false }
+    Forces { dissipation, customs, driven: false, accounted: false }
 }
 
 fn custom_field(place: usize, written: &spec::Custom) -> Custom {

@@ -27,6 +27,10 @@ pub enum Invariant {
     BodyTranslation(BigRational),
     /// `k/2 |p|^2`.
     SpaceTranslation(BigRational),
+    /// `1/2 p^T phi M phi^T p`.
+    BodyTranslationMetric(Matrix),
+    /// `1/2 p^T M p`.
+    SpaceTranslationMetric(Matrix),
 }
 
 impl Invariant {
@@ -37,6 +41,8 @@ impl Invariant {
         // -tr(W^2)/2 of a skew matrix.
         let squared = |w: Matrix<R>| (&w * &w).trace().scaled(&rational(-1, 2));
         let length = |v: Matrix<R>| &v.transpose() * &v;
+        let form = |v: Matrix<R>, m: &Matrix| &v.transpose() * &(&Matrix::constant(m) * &v);
+        let one = rational(1, 1);
         match self {
             Invariant::Casimir2(a) => half((&sigma() * &sigma()).trace(), a),
             Invariant::Casimir1Squared(b) => half(&sigma().trace() * &sigma().trace(), b),
@@ -48,6 +54,8 @@ impl Invariant {
             }
             Invariant::BodyTranslation(k) => half(length(&phi.transpose() * p), k),
             Invariant::SpaceTranslation(k) => half(length(p.clone()), k),
+            Invariant::BodyTranslationMetric(m) => half(form(&phi.transpose() * p, m), &one),
+            Invariant::SpaceTranslationMetric(m) => half(form(p.clone(), m), &one),
         }
     }
 }

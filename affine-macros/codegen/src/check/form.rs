@@ -47,7 +47,8 @@ pub(super) fn beside(
     let (arena_of, metrics_of) = (&mut arena, metrics.as_ref());
     let group = parts.first().and_then(|part| part.constraint);
     let potential = potential(arena_of, spec, group, (metrics_of, &mut rebased), found);
-    forces.driven = driven(spec, potential.as_ref());
+    forces.driven = potential.as_ref().is_some_and(Potential::depends_on_time);
+    forces.accounted = forces.driven && accounts(spec, &forces);
     together::with_potential(spec, potential.as_ref(), found);
     unitary::of_angles(spec, potential.as_ref(), found);
     let alone = match (&mass, parts.as_slice()) {
@@ -188,12 +189,11 @@ pub(super) fn forces(
     forces
 }
 
-/// Is the work of a potential that depends on the time, `dH/dt = dU/dt` at rest, part of the motion? The halves and kicks of
-/// the methods that take the equations apart have no place for it.
-fn driven(spec: &Spec, potential: Option<&Potential>) -> bool {
-    let apart = [Capability::Splitting, Capability::Nystrom];
-    let taken_apart = apart.iter().any(|c| capabilities::asked(spec, *c));
-    potential.is_some_and(Potential::depends_on_time) && !taken_apart
+/// Has the motion a place for the work of a potential that depends on the time, `dH/dt = dU/dt` at rest? The halves of
+/// equations of second order have none, and the kicks of pieces only beside the work of forces, which stands in one sum with it.
+fn accounts(spec: &Spec, forces: &Forces) -> bool {
+    let asked = |capability| capabilities::asked(spec, capability);
+    !asked(Capability::Nystrom) && (!asked(Capability::Splitting) || forces.do_work())
 }
 
 /// The energy of a motion that may be confined to a group, with the places of its terms; `None` without a common frame,

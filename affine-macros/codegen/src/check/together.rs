@@ -21,9 +21,10 @@ const NYSTROM: Part = Emitted(Capability::Nystrom);
 const TWO_POLAR: Part = Emitted(Capability::TwoPolar);
 const RATIOS: Part = Emitted(Capability::Ratios);
 const BALANCE: Part = Emitted(Capability::Balance);
+const METRIC: Part = Emitted(Capability::Metric);
 
 /// What does not go together.
-const REFUSED: [Row; 22] = [
+const REFUSED: [Row; 24] = [
     Row(
         &[TAYLOR],
         &[OnStretches],
@@ -62,6 +63,11 @@ const REFUSED: [Row; 22] = [
     ),
     Row(
         &[NYSTROM],
+        &[BodyTranslation],
+        "Nystrom methods integrate q'' = f(t, q); the weight of the centre depends on phi here, and x'' on phi_dot",
+    ),
+    Row(
+        &[NYSTROM],
         &[Free],
         "a body that nothing acts on moves in a straight line, phi = phi0 + t phi_dot0, known in closed form",
     ),
@@ -90,6 +96,11 @@ const REFUSED: [Row; 22] = [
     ),
     Row(&[RATIOS], &[Energy, PhiDot], RATIONAL),
     Row(&[BALANCE], &[AffineVelocities, Confined, Metrics], KINEMATICAL),
+    Row(
+        &[METRIC],
+        &[Casimir3],
+        "the velocity is quadratic in the momentum, and the kinetic energy no quadratic form of velocities",
+    ),
     Row(
         &[Friction, Force, Kick, FieldPotential, SelfGravity],
         &[Casimir3],

@@ -7,6 +7,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
+use crate::mechanics::forces::Forces;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Legendre;
 use crate::mechanics::potential::{Base, Potential};
@@ -171,14 +172,16 @@ impl Body<'_> {
         Some(batch)
     }
 
-    /// The power of the forces that no potential has, and of the time in a potential, where it is accounted for.
+    /// The power of the forces that no potential has, and of the time in a potential.
     fn power(&self, arena: &mut Arena, chart: &Chart) -> Option<Option<Batch>> {
         if self.forces.is_empty() && !self.forces.driven {
             return Some(None);
         }
         // Another potential has no power.
         let driving: Option<&Potential> = self.potential.filter(|_| self.forces.driven);
-        let (system, _) = self.systems(arena, chart, driving)?.swap_remove(0);
+        let forces = Forces { accounted: self.forces.driven, ..self.forces.clone() };
+        let body = Body { forces: &forces, ..*self };
+        let (system, _) = body.systems(arena, chart, driving)?.swap_remove(0);
         let Some((_, power)) = system.work else { return Some(None) };
         let batch =
             Batch { shared: system.shared, kernels: system.kernels, ..result(Quantity::Power, power) };

@@ -33,9 +33,12 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         let place = if k + 1 == bodies.len() { quote!(_) } else { quote!(#piece) };
         quote!(#place => { #body })
     });
-    let (body, piece) = match bodies.as_slice() {
-        [only] => (only.clone(), quote!(_piece)),
-        _ => (quote!(match piece { #(#arms)* }), quote!(piece)),
+    let moves = [quote!(h), quote!(state), quote!(carry)];
+    let (body, piece, [h, state, carry]) = match bodies.as_slice() {
+        // All that moves does so in closed form.
+        [] => (TokenStream::new(), quote!(_piece), [quote!(_h), quote!(_state), quote!(_carry)]),
+        [only] => (only.clone(), quote!(_piece), moves),
+        _ => (quote!(match piece { #(#arms)* }), quote!(piece), moves),
     };
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(FlowProgram::program);
     let dilates =
@@ -62,10 +65,10 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
                 &self,
                 #piece: #rt::usize,
                 #time: #t,
-                h: #t,
+                #h: #t,
                 #constants: &Self::Constants<#t>,
-                state: &mut Self::Reduced<#t>,
-                carry: &mut Self::Reduced<#t>,
+                #state: &mut Self::Reduced<#t>,
+                #carry: &mut Self::Reduced<#t>,
             ) {
                 #body
             }

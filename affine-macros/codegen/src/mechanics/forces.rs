@@ -5,7 +5,7 @@ use crate::symbol::Quantity;
 
 use super::charts::Chart;
 use super::conserved::{Candidate, Conservation};
-use super::custom::{By, Custom};
+use super::custom::{By, Custom, Role};
 use super::dissipation::Dissipation;
 use super::equations::Load;
 use super::hamiltonian::{Hamiltonian, Isotropic};
@@ -19,8 +19,10 @@ pub struct Forces {
     pub dissipation: Option<Dissipation>,
     /// What fields of the model compute, forces and potentials.
     pub customs: Vec<Custom>,
-    /// Does a potential that depends on the time stand beside them? Its power is part of the balance then.
+    /// Does a potential that depends on the time stand beside them? Its power is part of `dH/dt` then.
     pub driven: bool,
+    /// Is the work of that potential part of the motion, as theirs is?
+    pub accounted: bool,
 }
 
 impl Forces {
@@ -28,6 +30,13 @@ impl Forces {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.dissipation.is_none() && self.customs.is_empty()
+    }
+
+    /// Does any change the energy?
+    #[must_use]
+    pub fn do_work(&self) -> bool {
+        let works = |custom: &Custom| matches!(custom.role, Role::Force { gyroscopic: false, .. });
+        self.dissipation.is_some() || self.customs.iter().any(works)
     }
 
     /// What they add to Hamilton's equations of a chart.

@@ -33,7 +33,7 @@ pub fn beside(
 /// What a potential adds, with `dU/dt` where that is accounted for.
 pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forces: &Forces) -> Load {
     let load = u.load(arena, chart);
-    Load { work: load.work.filter(|_| forces.driven), ..load }
+    Load { work: load.work.filter(|_| forces.accounted), ..load }
 }
 
 impl Load {

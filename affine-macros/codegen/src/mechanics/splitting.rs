@@ -76,12 +76,12 @@ pub fn splitting(
     (h, body): (&Hamiltonian, &Body),
     reduction: &Reduction,
 ) -> Option<Splitting> {
-    let potential = body.potential;
+    let (potential, accounted) = (body.potential, body.forces.accounted);
     let own = own_dilatation(arena, h, potential, reduction);
     let summands = match (&reduction.dilatation, &own) {
         (Some(_), _) => separated(arena, reduction),
-        (None, Some(own)) => summands(arena, &own.h, Some(&own.rest), reduction)?,
-        (None, None) => summands(arena, h, potential, reduction)?,
+        (None, Some(own)) => summands(arena, &own.h, (Some(&own.rest), accounted), reduction)?,
+        (None, None) => summands(arena, h, (potential, accounted), reduction)?,
     };
     let kicks = kicks(arena, body, reduction)?;
     let summands: Vec<Summand> =
@@ -179,11 +179,12 @@ fn own_dilatation(
     Some(OwnDilatation { separation: Separation { slope, inverse_mass }, spin, energy, h, rest })
 }
 
-/// Kinetic energy, translation and potential in the chart of the reduction.
+/// Kinetic energy, translation and potential in the chart of the reduction; the potential with `dU/dt` where that is accounted
+/// for.
 fn summands(
     arena: &mut Arena,
     h: &Hamiltonian,
-    potential: Option<&Potential>,
+    (potential, accounted): (Option<&Potential>, bool),
     reduction: &Reduction,
 ) -> Option<Vec<Summand>> {
     let chart = &reduction.chart;
@@ -222,7 +223,7 @@ fn summands(
             rates: rates.collect(),
             shared: load.shared.clone(),
             kernels: load.kernels.clone(),
-            work: None,
+            work: load.work.filter(|_| accounted),
         };
         let system = over_the_state(arena, reduction, system)?;
         summands.push(Summand { name: "potential".into(), energy: None, system });
