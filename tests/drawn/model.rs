@@ -147,8 +147,8 @@ impl Phase {
             Reads::Reduced => model.dynamics.reduced.symbols(),
             Reads::Trajectory => Vec::new(),
         };
-        let fixed = if reads == Reads::Trajectory { model.dynamics.fixed.as_slice() } else { &[] };
-        let state: Vec<String> = state.iter().chain(fixed).map(Symbol::to_string).collect();
+        let fixed = if reads == Reads::Trajectory { model.dynamics.passage.fixed() } else { Vec::new() };
+        let state: Vec<String> = state.iter().chain(&fixed).map(Symbol::to_string).collect();
         let mut names: Vec<&str> = state.iter().map(String::as_str).collect();
         names.push("t");
         match reads {
