@@ -89,7 +89,11 @@ fn on_matrix(kind: TermKind, name: MatrixName, velocity: Letter) -> Sentence {
     let (o, matrix) = (|| Sentence::from(velocity), Sentence::Matrix(name));
     match kind.is_tensor() {
         false => trace(product([o(), matrix, o().transposed()])),
-        true => product([matrix.entry(&["AB", "CD"]), o().entry(&["AB"]), o().entry(&["CD"])]),
+        true => product([
+            matrix.entry(&[['A', 'B'], ['C', 'D']]),
+            o().entry(&[['A', 'B']]),
+            o().entry(&[['C', 'D']]),
+        ]),
     }
 }
 

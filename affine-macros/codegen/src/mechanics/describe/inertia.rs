@@ -122,13 +122,13 @@ fn on_rows(arena: &mut Arena, j: &MatrixName, of: Momentum) -> Inertial {
 
 /// `1/2 K^-1[(A,B),(C,D)] X[B,A] X[D,C]` and `O[A,B] = K^-1[(A,B),(C,D)] X[D,C]`.
 fn on_pairs(arena: &mut Arena, k: &MatrixName, of: Momentum) -> Inertial {
-    let inverse = || Sentence::Matrix(k.inverse()).entry(&["AB", "CD"]);
-    let energy = product([inverse(), momentum(of).entry(&["BA"]), momentum(of).entry(&["DC"])]);
+    let inverse = || Sentence::Matrix(k.inverse()).entry(&[['A', 'B'], ['C', 'D']]);
+    let energy = product([inverse(), momentum(of).entry(&[['B', 'A']]), momentum(of).entry(&[['D', 'C']])]);
     Inertial {
         energy: half(arena, energy),
         velocity: [
-            Sentence::from(velocity(of)).entry(&["AB"]),
-            product([inverse(), momentum(of).entry(&["DC"])]),
+            Sentence::from(velocity(of)).entry(&[['A', 'B']]),
+            product([inverse(), momentum(of).entry(&[['D', 'C']])]),
         ],
         on_pairs: true,
     }

@@ -111,9 +111,9 @@ fn raised(exponent: Exponent) -> String {
 }
 
 /// `AB`, or `(AB)(CD)`.
-fn indices_latex(indices: &[&str]) -> String {
+fn indices_latex(indices: &[[char; 2]]) -> String {
     match indices {
-        [one] => (*one).to_owned(),
-        several => several.iter().map(|one| format!("({one})")).collect(),
+        [[a, b]] => format!("{a}{b}"),
+        several => several.iter().map(|[a, b]| format!("({a}{b})")).collect(),
     }
 }

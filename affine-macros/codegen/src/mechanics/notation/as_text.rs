@@ -96,10 +96,9 @@ fn raised(text: &str, exponent: Exponent) -> String {
 }
 
 /// `A,B`, or `(A,B),(C,D)`.
-fn indices_text(indices: &[&str]) -> String {
-    let pair = |pair: &str| pair.chars().map(String::from).collect::<Vec<_>>().join(",");
+fn indices_text(indices: &[[char; 2]]) -> String {
     match indices {
-        [one] => pair(one),
-        several => several.iter().map(|one| format!("({})", pair(one))).collect::<Vec<_>>().join(","),
+        [[a, b]] => format!("{a},{b}"),
+        several => several.iter().map(|[a, b]| format!("({a},{b})")).collect::<Vec<_>>().join(","),
     }
 }

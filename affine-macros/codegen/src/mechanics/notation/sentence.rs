@@ -25,7 +25,7 @@ pub enum Sentence {
     /// A matrix by its diagonal.
     Diagonal(Vec<Sentence>),
     /// An entry by the letters of its indices, of a matrix of pairs of indices by those of two pairs.
-    Entry(Box<Sentence>, &'static [&'static str]),
+    Entry(Box<Sentence>, &'static [[char; 2]]),
     /// A sum, with the summands that are subtracted.
     Sum(Vec<Summand>),
     /// Factors side by side.
@@ -145,7 +145,7 @@ impl Sentence {
     }
 
     /// An entry by the letters of its indices.
-    pub(in crate::mechanics) fn entry(self, indices: &'static [&'static str]) -> Self {
+    pub(in crate::mechanics) fn entry(self, indices: &'static [[char; 2]]) -> Self {
         Self::Entry(Box::new(self), indices)
     }
 
