@@ -174,6 +174,7 @@ fn folder(package: Option<&str>) -> PathBuf {
         Some("affine-codegen") => "affine-macros/codegen",
         Some("affine-allocations") => "tests/allocations",
         Some("affine-linked") => "tests/linked",
+        Some("affine-together") => "tests/together",
         Some("affine-oracle") => "tests/oracle",
         Some("affine-comparison") => "tests/comparison",
         Some(other) => panic!("no package {other}"),
@@ -211,11 +212,14 @@ fn commands_name_what_exists() {
         let folder = folder(after(&words, "-p"));
         let searched = match (after(&words, "--test"), after(&words, "--example")) {
             (Some(test), _) => {
-                let main = program(&folder.join("tests"), test);
+                // Packages of tests alone have them beside their manifest.
+                let apart = folder.join("tests");
+                let main = program(if apart.is_dir() { &apart } else { &folder }, test);
                 if main.ends_with("main.rs") { main.parent().unwrap().to_owned() } else { main }
             }
             (None, Some(example)) => program(&folder.join("examples"), example),
-            (None, None) => folder.join("src"),
+            (None, None) if folder.join("src").is_dir() => folder.join("src"),
+            (None, None) => folder.clone(),
         };
         let names = |pair: &&[&str]| ["-p", "--exclude", "--test", "--example"].contains(&pair[0]);
         let flags: Vec<&str> = words.windows(2).filter(names).map(|pair| pair[1]).collect();

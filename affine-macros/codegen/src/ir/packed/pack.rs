@@ -15,6 +15,10 @@ pub(super) struct Draft {
     pub(super) cost: usize,
 }
 
+/// How often it is tried whether lanes go together: models of all families take less than a hundred attempts. Where vectors that
+/// cost more than they save stand in each other, as squares of squares of matrices do, each level takes five times as many.
+const MOST_ATTEMPTS: usize = 1024;
+
 /// The vectors that make the rates of those of the state.
 pub(super) fn pack(program: &Program, names: &[Symbol], state: Vec<[Option<usize>; 4]>) -> Draft {
     let input =
@@ -27,7 +31,8 @@ pub(super) fn pack(program: &Program, names: &[Symbol], state: Vec<[Option<usize
         lanes: lanes_of(vector, &|component| inputs[component]),
         made: Four::State(k),
     });
-    let mut packer = Packer { program, fixed: fixed(program, names), vectors: of_state.collect() };
+    let mut packer =
+        Packer { program, fixed: fixed(program, names), vectors: of_state.collect(), attempts: 0 };
     let rates =
         state.iter().map(|vector| packer.pack(lanes_of(vector, &|k| Some(program.outputs[k].1)))).collect();
     let cost = packer.cost() + OF_A_SUM * state.len();
@@ -51,6 +56,7 @@ struct Packer<'p> {
     program: &'p Program,
     fixed: Vec<bool>,
     vectors: Vec<Vector>,
+    attempts: usize,
 }
 
 /// Operands of the lanes of a vector.
@@ -78,6 +84,10 @@ impl Packer<'_> {
 
     /// By one operation, or gathered.
     fn cheaper(&mut self, lanes: Lanes) -> Index {
+        self.attempts += 1;
+        if self.attempts > MOST_ATTEMPTS {
+            return self.push(lanes, Four::Gathered(lanes));
+        }
         let mark = self.vectors.len();
         let Some(together) = self.together(lanes) else { return self.push(lanes, Four::Gathered(lanes)) };
         let cost_together = self.cost();
