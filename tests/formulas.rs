@@ -403,3 +403,18 @@ fn hostile_names() {
                 - omega_hat_22*kappa2[1,4]";
     assert!(inertia.latex_of(drag).starts_with(r"\hat Q_{R,11} = - \hat\Omega_{11} (\kappa_{2})_{11}"));
 }
+
+/// What is negative in a potential is subtracted from the kinetic energy; a sum under a sign keeps its brackets.
+#[test]
+fn potentials_stand_with_their_signs() {
+    let hamiltonian = |potential: &str| {
+        let args = format!("dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = {potential}");
+        let model = Described::derived(&args, "pub struct Named { g: f64 }");
+        let text = model.texts().find_map(|text| text.strip_prefix("H = 1/2 tr(Pi^T Pi) + 1/2 |p|^2 "));
+        text.expect("the Hamiltonian").to_owned()
+    };
+    assert_eq!(hamiltonian("-g*x[2]"), "- g*x_2");
+    assert_eq!(hamiltonian("x[1]^2/2 - g*x[2] - 1"), "+ 1/2*x_1^2 - g*x_2 - 1");
+    assert_eq!(hamiltonian("-2*(tr(G) - 2)^2"), "- 2*(tr(G) - 2)^2");
+    assert_eq!(hamiltonian("-(x[1]^2 + x[2])^2"), "- (x_1^2 + x_2)^2");
+}

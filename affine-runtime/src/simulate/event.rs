@@ -48,9 +48,9 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// or of its stretches all crossings are found that are further apart than that, by every method, in both directions of time,
 /// and in their order. Not guaranteed: an even number of roots closer together, two crossings of a level that is only just
 /// reached among them; a function of the time, or of the centre, that changes faster than the placement and the steps; fast
-/// oscillations of small amplitude, of a stiff dilatation, that adaptive splitting passes over. A run in closed form costs
-/// two samples or more for each radian, of one evaluation of the motion each; they take no memory, and
-/// [`progress`](super::Simulation::progress) is called after every few of them.
+/// oscillations of a stiff dilatation, which adaptive splitting passes over, or which moves in closed form beside steps that
+/// are long for it. A run in closed form costs two samples or more for each radian, of one evaluation of the motion each; they
+/// take no memory, and [`progress`](super::Simulation::progress) is called after every few of them.
 ///
 /// Where steps follow the error, samples within a step are first taken on the cubic through the numbers of the phase points at
 /// its ends, with Hamilton's equations there: that asks neither dense output nor a closed form. What it tells counts if the step is

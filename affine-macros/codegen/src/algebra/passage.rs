@@ -15,17 +15,17 @@ pub enum Word {
     StartPosition,
     /// The velocity of the centre of mass.
     Drift,
-    /// The linear momentum.
+    /// `p`, the linear momentum of the phase point.
     LinearMomentum,
-    /// The affine momentum.
+    /// The affine momentum of the chart that the state is in.
     Momentum,
     /// The rotation that turns space.
     Turn,
-    /// The placement.
+    /// `phi`, turned back and spread again as the statements go on.
     Placement,
     /// The affine spin whose skew part turns the body.
     Spin,
-    /// Its skew part.
+    /// The skew part of that spin.
     Skew,
     /// The generator of a rotation; on the way back, the rotation.
     Rotation,
@@ -69,7 +69,7 @@ impl Word {
 pub enum Tensor {
     /// A part of the phase point.
     OfPoint(Quantity),
-    /// A variable.
+    /// A variable that a statement before has bound.
     Variable(Word),
     /// A constant of the trajectory.
     Constant(Word),

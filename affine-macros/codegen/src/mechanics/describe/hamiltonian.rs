@@ -35,7 +35,7 @@ pub fn hamiltonian(
     let mut used = internal(arena, notation, &mut sum, (h, kinetic));
     translation(arena, notation, &mut sum, h);
     if let Some(u) = potential {
-        sum.push(Summand::plus(notation.scalar(arena, u.energy)));
+        sum.add_expression(arena, notation, u.energy);
         used.add_scaled(&Polynomial::atom(u.energy), &Rational::ONE);
     }
     sum.extend(forces.potentials().into_iter().map(Summand::plus));

@@ -76,7 +76,7 @@ pub fn hamiltonian(
         sum.push(Summand::plus(half(arena, power)));
     }
     if let Some(u) = potential {
-        sum.push(Summand::plus(notation.scalar(arena, u.energy)));
+        sum.add_expression(arena, notation, u.energy);
     }
     sum.extend(forces.potentials().into_iter().map(Summand::plus));
     sum.of(letters::HAMILTONIAN).with(definitions).with(forces.definitions(arena, notation))

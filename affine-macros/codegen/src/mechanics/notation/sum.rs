@@ -2,6 +2,7 @@
 
 use super::names::Notation;
 use super::sentence::{Sentence, Summand};
+use crate::algebra::arena::Node;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 
 /// A sum under construction.
@@ -34,6 +35,31 @@ impl Sum {
     ) {
         if let Some((negative, size)) = signed(arena, notation, number) {
             self.push(Summand { negative, value: Sentence::Scalar(size) });
+        }
+    }
+
+    /// Adds an expression, term by term: what is negative is subtracted.
+    pub(in crate::mechanics) fn add_expression(
+        &mut self,
+        arena: &mut Arena,
+        notation: &Notation,
+        expr: Expr,
+    ) {
+        let shown = notation.through_powers(arena, expr);
+        let Node::Sum(constant, terms) = arena.node(shown).clone() else {
+            return self.push(Summand::plus(Sentence::Scalar(shown)));
+        };
+        let constant = (!constant.is_zero()).then(|| (arena.constant(Rational::ONE), constant));
+        for (term, c) in terms.into_iter().chain(constant) {
+            let value = arena.scale(term, &c.abs());
+            // A sum by itself keeps its brackets.
+            let is_sum = c.abs().is_one() && matches!(arena.node(term), Node::Sum(..));
+            let value = if is_sum {
+                Sentence::Sum(vec![Summand::plus(Sentence::Scalar(value))])
+            } else {
+                Sentence::Scalar(value)
+            };
+            self.0.push(Summand { negative: c.is_negative(), value });
         }
     }
 

@@ -19,7 +19,7 @@ pub fn formulas(
     let mut sum = Sum::default();
     sum.push(Summand::plus(notation.polynomial(arena, &equations.kinetic)));
     if let Some(potential) = potential {
-        sum.push(Summand::plus(notation.scalar(arena, potential.energy)));
+        sum.add_expression(arena, notation, potential.energy);
     }
     let definitions = notation.definitions(arena, std::iter::once(&equations.kinetic));
     let energy = sum.of(letters::HAMILTONIAN).with(definitions);
