@@ -374,6 +374,20 @@ fn fields_are_called_what_the_user_called_them() {
     }
 }
 
+/// The energy of an inertia is known by itself, wherever its term stands in a sum of frames.
+#[test]
+fn an_inertia_is_written_whole_beside_terms_of_other_frames() {
+    let terms = ["body_translation = 1", "body_inertia = j", "space_translation = 2"];
+    for first in 0..terms.len() {
+        let (last, start) = (&terms[..first], &terms[first..]);
+        let kinetic = [start, last].concat().join(", ");
+        let specification = format!("dim = 2, require(positive_definite), kinetic({kinetic})");
+        let model = Described::derived(&specification, "pub struct Named { j: [[f64; 2]; 2] }");
+        let inertia = "H = 1/2 tr(Sigma_hat^T j^-1 Sigma_hat)";
+        assert!(model.texts().any(|text| text.starts_with(inertia)), "{kinetic}: {:#?}", model.formulas);
+    }
+}
+
 /// What is written like a symbol is told from it; Greek letters and digits are set as such.
 #[test]
 fn hostile_names() {

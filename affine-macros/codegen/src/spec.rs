@@ -24,7 +24,7 @@ use expression_parser::Language;
 pub(crate) use expression_parser::application;
 
 pub use custom::{Custom, Mark, Role, SelfGravity};
-pub use expression::{Expression, ExpressionKind, MatrixName, Operator, PolynomialTrace};
+pub use expression::{Expression, ExpressionKind, MatrixName, Operator, PolynomialTrace, more_factors};
 pub use item::{Field, Item};
 pub use matrix_field::Storage;
 pub use momentum_side::MomentumKind;

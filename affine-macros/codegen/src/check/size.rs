@@ -4,15 +4,15 @@ use super::potential::parts;
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::lower::integer;
-use crate::spec::{Expression, ExpressionKind, MatrixName, numbered};
+use crate::spec::{Expression, ExpressionKind, MatrixName, more_factors, numbered};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
 const MOST_SUMMANDS: u64 = 512;
 
-/// Traces are computed by products of matrices, each once, so that their size is the number of their factors, and of a power one
-/// less than its exponent beyond those of its base.
-const MOST_FACTORS: usize = 32;
+/// Traces are computed by products of matrices, each once, so that their size is the number of their factors, powers counted as
+/// [they are computed](more_factors).
+const MOST_FACTORS: usize = 16;
 
 /// Upper bounds of numbers of summands.
 #[derive(Clone, Copy)]
@@ -44,17 +44,25 @@ pub(super) fn of_potential(energy: &Expression, n: usize, found: &mut Diagnostic
         match &part.kind {
             ExpressionKind::Trace(product) if product.len() > 1 && !known.contains(&product.as_slice()) => {
                 known.push(product);
-                factors += product.len();
+                factors += of_product(product);
             }
-            ExpressionKind::PolynomialTrace(trace) => factors += trace.matrices().len(),
+            ExpressionKind::PolynomialTrace(trace) => factors += trace.factors(),
             _ => continue,
         }
         if factors > MOST_FACTORS {
-            let limit = "32 factors in its traces";
+            let limit = "16 factors in its traces";
             return Err(found.report(part.span, ExpressionMistake::ExpressionSize { limit }));
         }
     }
     Ok(())
+}
+
+/// The size of the trace of a product, which may be that of a power.
+fn of_product(product: &[MatrixName]) -> usize {
+    let len = product.len();
+    let is_period = |period: &usize| product.iter().zip(product.iter().skip(*period)).all(|(a, b)| a == b);
+    let period = (1..len).filter(|period| len.is_multiple_of(*period)).find(is_period).unwrap_or(len);
+    period + more_factors(len / period)
 }
 
 /// Does it name a stretch, or a function of pairs of them?

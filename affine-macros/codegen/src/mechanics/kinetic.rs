@@ -20,9 +20,9 @@ pub struct Kinetic {
     pub velocity: Matrix,
     /// The terms as given.
     pub terms: Vec<Term>,
-    /// Energy of each internal term, with its place among the terms.
+    /// Energy of each internal term, with its place among those of the whole energy, of which this may be a part.
     pub internal: Vec<(usize, Polynomial)>,
-    /// Frame and mass of the translational term, with its place among the terms.
+    /// Frame and mass of the translational term, with its place as in `internal`.
     pub translation: Option<Translation>,
     /// The internal energy in rational bases, where metrics make its coefficients irrational.
     pub congruent: Option<Congruent>,
@@ -35,7 +35,7 @@ pub struct Translation {
     pub frame: Frame,
     /// `m`.
     pub mass: Expr,
-    /// Place among the terms.
+    /// Place among the terms of the whole energy.
     pub place: usize,
 }
 

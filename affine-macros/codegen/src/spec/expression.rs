@@ -69,30 +69,53 @@ pub struct PolynomialTrace {
 }
 
 impl PolynomialTrace {
-    /// Its matrices, as often as they stand there, and the last one of a power once more for each further factor: no fewer than
-    /// products of matrices are computed.
+    /// Its matrices, as often as they stand there.
     #[must_use]
     pub fn matrices(&self) -> Vec<MatrixName> {
         matrices(&self.written)
     }
+
+    /// The number of its factors, and of what its [powers](more_factors) are worth beyond their bases.
+    #[must_use]
+    pub fn factors(&self) -> usize {
+        factors(&self.written)
+    }
 }
 
-/// The same in a part; those of traces within it are counted there.
+/// What a power of a matrix is worth in factors beyond those of its base: one factor for each further one where these are few,
+/// two for each squaring otherwise, since the slope is a power as well.
+#[must_use]
+pub fn more_factors(exponent: usize) -> usize {
+    let beyond = exponent.saturating_sub(1);
+    let squarings = (usize::BITS - beyond.leading_zeros()) as usize;
+    beyond.min(2 * squarings)
+}
+
+/// The matrices of a part; those of traces within it are counted there.
 fn matrices(part: &Expression) -> Vec<MatrixName> {
     match &part.kind {
         ExpressionKind::Matrix(matrix) => vec![*matrix],
         ExpressionKind::PolynomialTrace(_) => Vec::new(),
-        ExpressionKind::Power(base, exponent) => {
-            let mut list = matrices(base);
-            let more = match &exponent.kind {
-                ExpressionKind::Number(power) => power.to_i64().and_then(|k| usize::try_from(k - 1).ok()),
-                _ => None,
-            };
-            let last = list.last().copied();
-            list.extend(last.into_iter().flat_map(|last| vec![last; more.unwrap_or(0)]));
-            list
-        }
         _ => part.operands().into_iter().flat_map(matrices).collect(),
+    }
+}
+
+/// The same of the factors of a part.
+fn factors(part: &Expression) -> usize {
+    let within: usize = match &part.kind {
+        ExpressionKind::Matrix(_) => return 1,
+        ExpressionKind::PolynomialTrace(_) => return 0,
+        _ => part.operands().into_iter().map(factors).sum(),
+    };
+    match &part.kind {
+        ExpressionKind::Power(_, exponent) if within > 0 => match &exponent.kind {
+            ExpressionKind::Number(power) => {
+                let power = power.to_i64().and_then(|k| usize::try_from(k).ok());
+                within + power.map_or(0, more_factors)
+            }
+            _ => within,
+        },
+        _ => within,
     }
 }
 

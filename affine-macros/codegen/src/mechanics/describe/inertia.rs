@@ -36,8 +36,8 @@ pub(super) fn inertial(
     if h.numeric_blocks.is_empty() || h.constraint.is_some() || h.weight.is_some() {
         return None;
     }
-    let [(place, _)] = kinetic.internal.as_slice() else { return None };
-    let term = &kinetic.terms[*place];
+    let mut terms = kinetic.terms.iter().filter(|term| term.kind.translation_frame().is_none());
+    let (Some(term), None) = (terms.next(), terms.next()) else { return None };
     let Coefficient::Matrix(matrix) = &term.value else { return None };
     let name = notation.matrix_name(arena, &matrix.0);
     let tensor = term.kind.is_tensor();
