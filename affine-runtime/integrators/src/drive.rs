@@ -218,16 +218,16 @@ pub trait EqualStepMethod {
     const NAME: &'static str;
     /// The state of a point.
     fn state(point: &Self::Point) -> &Self::State;
-    /// The point a time `h` after `begin`, where the step before, if there is one, had the length `last`.
+    /// Moves a point by the time `h`, where the step before, if there is one, had the length `last`.
     ///
     /// # Errors
-    /// [`Failure::NoSolution`], [`Failure::NotFinite`].
-    fn step(&mut self, from: (f64, Self::Point), h: f64, last: Option<f64>) -> Result<Self::Point, Failure>;
+    /// [`Failure::NoSolution`], [`Failure::NotFinite`]; the point is none then.
+    fn step(&mut self, from: (f64, &mut Self::Point), h: f64, last: Option<f64>) -> Result<(), Failure>;
     /// The same from where the last step, of length `last`, began, without influence on the steps.
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    fn within(&mut self, from: (f64, Self::Point), h: f64, last: f64) -> Result<Self::Point, Failure> {
+    fn within(&mut self, from: (f64, &mut Self::Point), h: f64, last: f64) -> Result<(), Failure> {
         self.step(from, h, Some(last))
     }
     /// Evaluations of the equations so far.
@@ -259,10 +259,8 @@ impl<M: EqualStepMethod> Equal<M> {
     /// # Errors
     /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
-        let Some((t, begin, h)) = self.steps.next()? else { return Ok(()) };
-        let last = (self.steps.taken() > 0).then(|| self.steps.last_length());
-        let end = self.method.step((t, begin), h, last);
-        self.steps.take(end)
+        let Self { method, steps } = self;
+        steps.take(|from, h, last| method.step(from, h, last))
     }
 
     /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves
@@ -271,12 +269,11 @@ impl<M: EqualStepMethod> Equal<M> {
     /// # Errors
     /// As [`advance`](Self::advance), but the integration can go on.
     pub fn at(&mut self, t: f64) -> Result<M::State, Failure> {
-        let Some((from, begin, h)) = self.steps.again_to(t) else { return Ok(*self.y()) };
-        if h == 0.0 {
-            return Ok(*M::state(&begin));
+        let Some((from, mut point, h)) = self.steps.again_to(t) else { return Ok(*self.y()) };
+        if h != 0.0 {
+            self.method.within((from, &mut point), h, self.steps.last_length())?;
         }
-        let between = self.method.within((from, begin), h, self.steps.last_length());
-        between.map(|point| *M::state(&point))
+        Ok(*M::state(&point))
     }
 
     /// Goes on to another end of the interval.

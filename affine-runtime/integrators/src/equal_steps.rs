@@ -43,6 +43,24 @@ impl Times {
     }
 }
 
+/// A place among three, after each other in a circle.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    First,
+    Second,
+    Third,
+}
+
+impl Place {
+    fn next(self) -> Self {
+        match self {
+            Self::First => Self::Second,
+            Self::Second => Self::Third,
+            Self::Third => Self::First,
+        }
+    }
+}
+
 /// The steps taken, with the points where the last one began and ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EqualSteps<P> {
@@ -52,45 +70,59 @@ pub(super) struct EqualSteps<P> {
     before: u64,
     /// Length of the last step.
     last: f64,
-    begin: P,
-    end: P,
+    /// Where the last step began, where it ended, and room for the next one, in a circle: points are not moved, and where a
+    /// step fails the one before it is still known.
+    points: [P; 3],
+    /// The place of the point reached.
+    end: Place,
     failure: Option<Failure>,
 }
 
 impl<P: Copy> EqualSteps<P> {
     /// Before the first step.
     pub(super) fn at(times: Times, start: P) -> Self {
-        Self { times, taken: 0, before: 0, last: times.h, begin: start, end: start, failure: None }
-    }
-
-    /// Where the next step begins: time, point and length; `None` at `t_end`.
-    ///
-    /// # Errors
-    /// The failure of an earlier step.
-    pub(super) fn next(&self) -> Result<Option<(f64, P, f64)>, Failure> {
-        match self.failure {
-            Some(failure) => Err(failure),
-            None if self.is_finished() => Ok(None),
-            None => Ok(Some((self.t(), self.end, self.times.h))),
+        Self {
+            times,
+            taken: 0,
+            before: 0,
+            last: times.h,
+            points: [start; 3],
+            end: Place::First,
+            failure: None,
         }
     }
 
-    /// Goes to the end of a step; where it failed, the point stays, now and ever after.
+    /// Takes a step, which moves a point from a time on by a length, where there was a step before by its length, too; does
+    /// nothing at `t_end`. Where it fails the point stays, now and ever after.
     ///
     /// # Errors
-    /// That of the step.
-    pub(super) fn take(&mut self, outcome: Result<P, Failure>) -> Result<(), Failure> {
-        match outcome {
-            Ok(end) => {
-                (self.begin, self.end, self.last) = (self.end, end, self.times.h);
-                self.taken += 1;
-                Ok(())
-            }
-            Err(failure) => {
-                self.failure = Some(failure);
-                Err(failure)
-            }
+    /// Those of the step.
+    #[inline(always)]
+    pub(super) fn take(
+        &mut self,
+        step: impl FnOnce((f64, &mut P), f64, Option<f64>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if let Some(failure) = self.failure {
+            return Err(failure);
         }
+        if self.is_finished() {
+            return Ok(());
+        }
+        let (t, last) = (self.t(), (self.taken() > 0).then_some(self.last));
+        let [first, second, third] = &mut self.points;
+        let (end, moving) = match self.end {
+            Place::First => (first, second),
+            Place::Second => (second, third),
+            Place::Third => (third, first),
+        };
+        *moving = *end;
+        if let Err(failure) = step((t, moving), self.times.h, last) {
+            self.failure = Some(failure);
+            return Err(failure);
+        }
+        (self.end, self.last) = (self.end.next(), self.times.h);
+        self.taken += 1;
+        Ok(())
     }
 
     /// Goes on to another end, in steps that are not longer than before.
@@ -115,7 +147,8 @@ impl<P: Copy> EqualSteps<P> {
             return None;
         }
         let begin = self.times.at(self.taken - 1);
-        Some((begin, self.begin, t - begin))
+        // The place before is the one after the next.
+        Some((begin, *self.point(self.end.next().next()), t - begin))
     }
 
     /// Time reached.
@@ -125,7 +158,16 @@ impl<P: Copy> EqualSteps<P> {
 
     /// Point reached.
     pub(super) fn end(&self) -> &P {
-        &self.end
+        self.point(self.end)
+    }
+
+    fn point(&self, place: Place) -> &P {
+        let [first, second, third] = &self.points;
+        match place {
+            Place::First => first,
+            Place::Second => second,
+            Place::Third => third,
+        }
     }
 
     /// `t_end` is reached.
@@ -146,8 +188,9 @@ impl<P: Copy> EqualSteps<P> {
     /// Everything that the next steps depend on; `point` hands over a point.
     pub(super) fn exchange<T: Tape>(&mut self, tape: &mut T, point: impl FnOnce(&mut T, &mut P)) {
         tape.bits(&mut self.taken);
-        point(tape, &mut self.end);
-        self.begin = self.end;
+        let mut end = *self.end();
+        point(tape, &mut end);
+        self.points = [end; 3];
     }
 }
 
@@ -179,8 +222,30 @@ pub fn parts(t0: f64, t_end: f64, part: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
-    use super::step_count;
+    use super::{EqualSteps, Failure, Times, step_count};
+
+    #[test]
+    fn a_step_that_fails_leaves_the_one_before() {
+        let times = Times::new(0.0, 5.0, 1.0).expect("times");
+        let mut steps = EqualSteps::at(times, 10.0_f64);
+        for taken in 0..4 {
+            let last = steps.again_to(0.25);
+            let before = if taken == 0 { None } else { Some((f64::from(taken - 1), 9.0 + f64::from(taken))) };
+            assert_eq!(last.map(|(t, point, _)| (t, point)), before);
+            let step = |(t, point): (f64, &mut f64), h: f64, last: Option<f64>| {
+                assert_eq!((t, *point, h), (f64::from(taken), 10.0 + f64::from(taken), 1.0));
+                assert_eq!(last, (taken > 0).then_some(1.0));
+                *point += h;
+                if taken < 3 { Ok(()) } else { Err(Failure::NotFinite) }
+            };
+            assert_eq!(steps.take(step).is_ok(), taken < 3);
+        }
+        assert_eq!((steps.t(), *steps.end(), steps.taken()), (3.0, 13.0, 3));
+        assert_eq!(steps.again_to(2.5), Some((2.0, 12.0, 0.5)));
+        assert_eq!(steps.take(|_, _, _| Ok(())), Err(Failure::NotFinite));
+    }
 
     #[test]
     fn frames_have_the_steps_that_they_are_divided_into() {

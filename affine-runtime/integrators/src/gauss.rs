@@ -113,24 +113,25 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, C: Coordinates<S>> EqualStepMetho
         &point.value
     }
 
-    fn step(&mut self, from: (f64, Sum<S>), h: f64, last: Option<f64>) -> Result<Sum<S>, Failure> {
+    fn step(&mut self, (t, point): (f64, &mut Sum<S>), h: f64, last: Option<f64>) -> Result<(), Failure> {
         let guess = last.map_or(self.increments, |last| self.continued(1.0, h / last));
-        let (end, increments, residual) = self.solved(from, h, guess)?;
+        let (end, increments, residual) = self.solved((t, *point), h, guess)?;
         self.residual = if residual > self.residual { residual } else { self.residual };
-        self.increments = increments;
-        Ok(end)
+        (*point, self.increments) = (end, increments);
+        Ok(())
     }
 
     /// Of the same order as the steps, which the collocation polynomial is not.
-    fn within(&mut self, from: (f64, Sum<S>), h: f64, last: f64) -> Result<Sum<S>, Failure> {
+    fn within(&mut self, (t, point): (f64, &mut Sum<S>), h: f64, last: f64) -> Result<(), Failure> {
         let guess = self.continued(0.0, h / last);
         // The Jacobian that the steps work with, and whether they need one, stay as they are.
         let steps = self.equations.clone();
-        let between = self.solved(from, h, guess);
+        let between = self.solved((t, *point), h, guess);
         let evaluations = self.equations.evaluations;
         self.equations = steps;
         self.equations.evaluations = evaluations;
-        between.map(|(end, ..)| end)
+        *point = between?.0;
+        Ok(())
     }
 
     fn evaluations(&self) -> u64 {

@@ -115,15 +115,14 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> EqualStepMethod f
 
     /// # Errors
     /// [`Failure::NoSolution`] with what is left of `det phi - 1`.
-    fn step(&mut self, (t, begin): (f64, Point<S>), h: f64, _last: Option<f64>) -> Result<Point<S>, Failure> {
-        let mut point = begin;
+    fn step(&mut self, (t, point): (f64, &mut Point<S>), h: f64, _last: Option<f64>) -> Result<(), Failure> {
         let mut part = 0.0;
         for weight in self.composition.weights() {
             let from = t + part * h;
             part += weight;
-            point = self.one(from + weight * h, point, weight * h)?;
+            *point = self.one(from + weight * h, *point, weight * h)?;
         }
-        Ok(point)
+        Ok(())
     }
 
     fn evaluations(&self) -> u64 {

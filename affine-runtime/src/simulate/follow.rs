@@ -97,12 +97,12 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             if self.pass_through(motion, until, sampling)? {
                 return Ok(());
             }
-            stands?;
+            let is_known = stands?;
             if self.schedule == Schedule::Steps {
                 self.record_step(t, motion.reached())?;
             } else if self.trajectory.end.0 != t {
                 let is_good = |phi: &[f64]| is_clearly_positive(&Matrix::<N>::from_row_slice(phi));
-                if motion.is_finished() || !motion.placement().is_some_and(is_good) {
+                if motion.is_finished() || !(is_known || motion.placement().is_some_and(is_good)) {
                     self.reach(t, motion.reached())?;
                 }
             }

@@ -67,7 +67,8 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Holds the whole of a step that was taken against what was known before, and goes there.
+    /// Holds the whole of a step that was taken against what was known before, and goes there. Is the point reached known to
+    /// be finite and to keep its orientation?
     ///
     /// # Errors
     /// [`Reason::Placement`] where the orientation is lost within it, found again or not; [`Reason::Domain`] where the
@@ -76,22 +77,24 @@ impl<const N: usize> Guard<N> {
         &mut self,
         model: &dyn Mechanics<N, P>,
         motion: &mut dyn Motion<P>,
-    ) -> Result<(), Reason> {
+    ) -> Result<bool, Reason> {
         let asked = self.asked;
         let reason = |failure| failed(failure, asked, model.description().name);
         if let Some(begin) = &mut self.moment {
             let (point, _) = motion.reached();
-            if !point.is_finite() {
-                return Err(Reason::NotFinite);
-            }
             let end = Moment::of(model, (motion.t(), &point));
-            keeps_orientation(model, motion, (*begin, end), &reason)?;
+            if !begin.clearly_reaches(&end) {
+                if !point.is_finite() {
+                    return Err(Reason::NotFinite);
+                }
+                keeps_orientation(model, motion, (begin, &end), &reason)?;
+            }
             *begin = end;
         }
-        match &mut self.domain {
-            Some(domain) => domain.keep(model, motion, &reason),
-            None => Ok(()),
+        if let Some(domain) = &mut self.domain {
+            domain.keep(model, motion, &reason)?;
         }
+        Ok(self.moment.is_some())
     }
 
     fn reason<P: Phase<N>>(&self, model: &dyn Mechanics<N, P>, failure: Failure) -> Reason {

@@ -38,20 +38,26 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
 /// is left to the careful way. Without branches, for many placements at once.
 #[inline(always)]
 pub(super) fn is_clearly_positive<const N: usize>(phi: &Matrix<N>) -> bool {
-    let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
     let scale = sum_of_squares(phi.as_slice());
     // `det > c |phi|^n` without the root.
     let exceeds = |determinant: f64, power: f64| {
         (determinant > 0.0) & (determinant * determinant > CLEARLY_POSITIVE * CLEARLY_POSITIVE * power)
     };
     match N {
-        2 => exceeds(phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)], scale * scale),
-        3 => {
-            let determinant =
-                phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1);
-            exceeds(determinant, scale * scale * scale)
-        }
+        2 => exceeds(determinant(phi), scale * scale),
+        3 => exceeds(determinant(phi), scale * scale * scale),
         _ => false,
+    }
+}
+
+/// The determinant by products in two and three dimensions, as far as these are in the range of numbers; NaN in others.
+#[inline(always)]
+pub(super) fn determinant<const N: usize>(phi: &Matrix<N>) -> f64 {
+    let minor = |a: usize, b: usize| phi[(1, a)] * phi[(2, b)] - phi[(1, b)] * phi[(2, a)];
+    match N {
+        2 => phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)],
+        3 => phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1),
+        _ => f64::NAN,
     }
 }
 

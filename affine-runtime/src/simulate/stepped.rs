@@ -142,7 +142,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
                 let stepped = guard
                     .advance(model, motion)
                     .and_then(|()| guard.stands(model, motion))
-                    .and_then(|()| placed::<N, H>(motion, determined));
+                    .and_then(|is_known| placed::<N, H>(motion, is_known, determined));
                 if let Err(reason) = stepped {
                     let (t, (point, _)) = motion.kept().unwrap_or_else(|| (begin, motion.reached()));
                     let reason = explained(model, motion, (t, &point), reason);
@@ -289,13 +289,14 @@ fn course<'a, 'p, const N: usize, H: Handle<N> + 'a>(
     Course { t0, start, t_end, method: plan.method, tolerance, within_steps: false }
 }
 
-/// Refuses a placement that does not keep orientation, or that a method which forms `det phi` cannot.
+/// Refuses a placement that does not keep orientation, unless it is known to, or that a method which forms `det phi` cannot.
 fn placed<const N: usize, H: Handle<N>>(
     motion: &dyn Motion<PointOf<N, H>>,
+    is_known: bool,
     determined: Option<&H::Model>,
 ) -> Result<(), Reason> {
     let is_good = |phi: &[f64]| is_clearly_positive(&Matrix::<N>::from_row_slice(phi));
-    if determined.is_none() && motion.placement().is_some_and(is_good) {
+    if determined.is_none() && (is_known || motion.placement().is_some_and(is_good)) {
         return Ok(());
     }
     let (t, (point, _)) = (motion.t(), motion.reached());
