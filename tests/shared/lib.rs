@@ -17,3 +17,8 @@ pub mod tolerances;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 mod readme {}
+
+/// That of the attribute.
+#[cfg(doctest)]
+#[doc = include_str!("../../affine-macros/docs/attribute.md")]
+mod attribute {}
