@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// Whose equations there are, and what they are called in tables.
 pub(crate) const STATEMENTS: [(&str, &str); 2] =
-    [("casadi", "C DOP853, CasADi"), ("sympy", "C DOP853, SymPy")];
+    [("casadi", "C DOP853 by CasADi"), ("sympy", "C DOP853 by SymPy")];
 const FLAGS: [&str; 5] = ["-std=c11", "-O3", "-march=native", "-ffast-math", "-o"];
 const PROGRAM: &str = "output/comparison_in_c";
 

@@ -182,7 +182,7 @@ impl Comparison {
             Some(Measured { tolerance, error, evaluations: run.statistics().equivalent_evaluations(), time })
         };
         let round = |_| {
-            let mut tools = vec![("affine, automatic", sweep(automatic))];
+            let mut tools = vec![("affine automatic", sweep(automatic))];
             tools.extend(by_hand::measure(name, exact, self.compiled.as_mut()));
             tools
         };
