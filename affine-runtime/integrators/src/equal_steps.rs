@@ -82,7 +82,8 @@ impl<P: Copy> EqualSteps<P> {
     pub(super) fn take(&mut self, outcome: Result<P, Failure>) -> Result<(), Failure> {
         match outcome {
             Ok(end) => {
-                (self.begin, self.end, self.last) = (self.end, end, self.times.h);
+                self.begin = self.end;
+                (self.end, self.last) = (end, self.times.h);
                 self.taken += 1;
                 Ok(())
             }

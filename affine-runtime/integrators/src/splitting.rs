@@ -75,10 +75,9 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> EqualStepMethod for SplittingSteps
         &point.value
     }
 
-    fn step(&mut self, from: (f64, Sum<S>), h: f64, _last: Option<f64>) -> Result<Sum<S>, Failure> {
-        let (end, evaluations) = composed(&self.pieces, &self.sweeps, &self.constants, from, h);
-        self.evaluations += evaluations;
-        if is_finite(&end.value) { Ok(end) } else { Err(Failure::NotFinite) }
+    fn step(&mut self, (t, mut state): (f64, Sum<S>), h: f64, _last: Option<f64>) -> Result<Sum<S>, Failure> {
+        self.evaluations += composed(&self.pieces, &self.sweeps, &self.constants, (t, &mut state), h);
+        if is_finite(&state.value) { Ok(state) } else { Err(Failure::NotFinite) }
     }
 
     fn evaluations(&self) -> u64 {
@@ -103,22 +102,21 @@ fn of_order<S, C, P: Pieces<S, C>>(order: usize) -> Option<Sweeps> {
     }
 }
 
-/// One step of a composition, and the flows of its last piece.
+/// Takes a state through one step of a composition; the flows of its last piece. States are large, and stay where they are.
 #[inline]
 fn composed<S, C, P: Pieces<S, C>>(
     pieces: &P,
     sweeps: &Sweeps,
     constants: &C,
-    (t, begin): (f64, Sum<S>),
+    (t, state): (f64, &mut Sum<S>),
     h: f64,
-) -> (Sum<S>, u64) {
-    let mut state = begin;
+) -> u64 {
     let last = P::COUNT.saturating_sub(1);
     let (mut elapsed, mut evaluations) = (0.0, 0);
     sweeps.each(last + 1, |piece, part| {
-        pieces.flow(piece, t + elapsed * h, part * h, constants, &mut state);
+        pieces.flow(piece, t + elapsed * h, part * h, constants, state);
         elapsed += if piece == 0 { part } else { 0.0 };
         evaluations += u64::from(piece == last);
     });
-    (state, evaluations)
+    evaluations
 }

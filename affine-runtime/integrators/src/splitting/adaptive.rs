@@ -206,10 +206,10 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> HalvedSteps<S, C, P> {
         self.composed(t + 0.5 * h, half, 0.5 * h, control)
     }
 
-    fn composed(&self, t: f64, begin: Sum<S>, h: f64, control: &mut Control) -> Sum<S> {
-        let (end, evaluations) = composed(&self.pieces, &self.sweeps, &self.constants, (t, begin), h);
+    fn composed(&self, t: f64, mut state: Sum<S>, h: f64, control: &mut Control) -> Sum<S> {
+        let evaluations = composed(&self.pieces, &self.sweeps, &self.constants, (t, &mut state), h);
         control.statistics.evaluations += evaluations;
-        end
+        state
     }
 }
 
