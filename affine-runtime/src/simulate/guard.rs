@@ -37,9 +37,11 @@ impl<const N: usize> Guard<N> {
         asked: (Method, f64),
     ) -> Result<Self, Reason> {
         let signature = Signature::of(model.regularity(start.phi()));
-        let moment = passes_through_zero(model.description())
-            .then(|| Moment::of(model, (motion.t(), &motion.reached().0)));
-        let domain = Domain::at(model, (motion.t(), &motion.reached().0))?;
+        let (passes, description) = (passes_through_zero(model.description()), model.description());
+        // The state is not expanded for a body that is asked for neither.
+        let at = (passes || !description.domain.is_empty()).then(|| (motion.t(), motion.reached().0));
+        let moment = at.as_ref().filter(|_| passes).map(|(t, point)| Moment::of(model, (*t, point)));
+        let domain = at.as_ref().map(|(t, point)| Domain::at(model, (*t, point))).transpose()?.flatten();
         Ok(Self { signature, moment, domain, since, asked })
     }
 

@@ -61,29 +61,38 @@ pub(super) fn determinant<const N: usize>(phi: &Matrix<N>) -> f64 {
     }
 }
 
-/// What an energy is measured against: `|H|`, or `(|Pi| |phi_dot| + |p| |x_dot|)/2` in orthonormal bases, which is at least
-/// `|T|`.
-pub(super) fn energy_scale<const N: usize, P: Phase<N>>(
-    model: &dyn Mechanics<N, P>,
-    point: &P,
-    energy: f64,
-) -> f64 {
-    larger(energy.abs(), energy_bound(model, point).0)
+/// The energy of a point, with what it is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Energy {
+    /// `H`.
+    pub(super) value: f64,
+    /// `(|Pi| |phi_dot| + |p| |x_dot|)/2` in orthonormal bases, which is at least `|T|`.
+    bound: f64,
+    /// `T = (tr(Pi phi_dot) + p . x_dot)/2` of a quadratic energy.
+    kinetic: f64,
 }
 
-/// `(|Pi| |phi_dot| + |p| |x_dot|)/2` in orthonormal bases, and `T = (tr(Pi phi_dot) + p . x_dot)/2` of a quadratic energy, which
-/// is not larger.
-pub(super) fn energy_bound<const N: usize, P: Phase<N>>(
-    model: &dyn Mechanics<N, P>,
-    point: &P,
-) -> (f64, f64) {
-    let bases = model.bases();
-    let velocity = model.velocity(point);
-    let velocity = bases.as_ref().map_or(velocity, |bases| bases.velocity(&velocity));
-    let point = point.in_orthonormal(bases.as_ref());
-    let (pi, p) = (point.pi().0.0, point.p());
-    let internal = norm(pi.as_slice()) * norm(velocity.phi_dot.as_slice());
-    let translational = norm(p.as_slice()) * norm(velocity.x_dot.as_slice());
-    let kinetic = pi.transpose().dot(&velocity.phi_dot) + p.dot(&velocity.x_dot);
-    (0.5 * (internal + translational), 0.5 * kinetic)
+impl Energy {
+    pub(super) fn at<const N: usize, P: Phase<N>>(model: &dyn Mechanics<N, P>, t: f64, point: &P) -> Self {
+        let value = model.hamiltonian(t, point);
+        let bases = model.bases();
+        let velocity = model.velocity(point);
+        let velocity = bases.as_ref().map_or(velocity, |bases| bases.velocity(&velocity));
+        let point = point.in_orthonormal(bases.as_ref());
+        let (pi, p) = (point.pi().0.0, point.p());
+        let internal = norm(pi.as_slice()) * norm(velocity.phi_dot.as_slice());
+        let translational = norm(p.as_slice()) * norm(velocity.x_dot.as_slice());
+        let kinetic = pi.transpose().dot(&velocity.phi_dot) + p.dot(&velocity.x_dot);
+        Self { value, bound: 0.5 * (internal + translational), kinetic: 0.5 * kinetic }
+    }
+
+    /// What an error of the energy is measured against: `|H|`, or the bound of `|T|`.
+    pub(super) fn scale(&self) -> f64 {
+        larger(self.value.abs(), self.bound)
+    }
+
+    /// `|T| + |U|`, with a bound of `|T|` that an indefinite kinetic energy has too.
+    pub(super) fn size(&self) -> f64 {
+        self.bound + (self.value - self.kinetic).abs()
+    }
 }

@@ -8,7 +8,7 @@ use super::event::{Action, Occurrence};
 use super::mechanics::Mechanics;
 use super::motion::{Motion, WithWork};
 use super::output::{Schedule, without_steps};
-use super::point::{check, energy_scale, go_on};
+use super::point::{Energy, check, go_on};
 use super::progress::{Observe, Progress, Watch};
 use super::range::in_range;
 use super::standing::Side;
@@ -117,8 +117,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
 
     /// Begins to look for them where steps begin.
     fn watch_from(&mut self, t: f64, point: &P) {
-        self.watcher.begin(t, point, turning(self.model, point), &self.place.events);
         if self.has_events() {
+            self.watcher.begin(t, point, turning(self.model, point), &self.place.events);
             self.watcher.begin_steps(self.model, point);
         }
     }
@@ -232,7 +232,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 self.trajectory.end = (t, point);
                 self.trajectory.energies.work_at_end = self.place.work() + work;
                 match self.schedule.ends_with_output() {
-                    true => self.push(self.model.hamiltonian(t, &point)),
+                    true => self.push(&Energy::at(self.model, t, &point)),
                     false => Ok(()),
                 }
             }
@@ -282,8 +282,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Checks a phase point, which becomes the last good one.
-    pub(super) fn reach(&mut self, t: f64, (point, work): WithWork<P>) -> Result<(), Reason> {
-        check(t, &point)?;
+    pub(super) fn reach(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
+        check(t, &point.0)?;
+        self.stand_at(t, point)
+    }
+
+    /// A phase point that was checked becomes the last good one.
+    fn stand_at(&mut self, t: f64, (point, work): WithWork<P>) -> Result<(), Reason> {
         if self.needs_determinant {
             in_range(t, self.trajectory.orthonormal(&point).phi())?;
         }
@@ -296,20 +301,29 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn record(&mut self, t: f64, point: WithWork<P>) -> Result<(), Reason> {
         check(t, &point.0)?;
         let energy = self.witnessed(t, &point)?;
-        self.reach(t, point)?;
-        self.push(energy)
+        self.stand_at(t, point)?;
+        self.push(&energy)
     }
 
     /// Begins to hold the energy against what it is at the start of an integration.
     pub(super) fn begin_energy(&mut self, t0: f64, start: &P, tolerance: Option<f64>) -> Result<(), Reason> {
+        let energy = Energy::at(self.model, t0, start);
+        self.begin_at_energy((t0, start), &energy, tolerance)
+    }
+
+    /// The same where the energy is known.
+    pub(super) fn begin_at_energy(
+        &mut self,
+        (t0, start): (f64, &P),
+        energy: &Energy,
+        tolerance: Option<f64>,
+    ) -> Result<(), Reason> {
         Domain::at(self.model, (t0, start))?;
-        let energy = self.model.hamiltonian(t0, start);
-        if !energy.is_finite() {
-            return Err(Reason::Energy { energy, t: t0 });
+        if !energy.value.is_finite() {
+            return Err(Reason::Energy { energy: energy.value, t: t0 });
         }
-        let before = (energy, self.place.work());
-        let scale = self.place.largest_energy();
-        self.witness = Some(Witness::begin(self.model, before, (start, scale), tolerance));
+        let (before, scale) = ((energy, self.place.work()), self.place.largest_energy());
+        self.witness = Some(Witness::begin(self.model.description(), before, scale, tolerance));
         Ok(())
     }
 
@@ -324,10 +338,10 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// The energy of a point, held against that of the start.
-    pub(super) fn witnessed(&mut self, t: f64, (point, work): &WithWork<P>) -> Result<f64, Reason> {
-        let energy = self.model.hamiltonian(t, point);
+    pub(super) fn witnessed(&mut self, t: f64, (point, work): &WithWork<P>) -> Result<Energy, Reason> {
+        let energy = Energy::at(self.model, t, point);
         if let Some(witness) = &mut self.witness {
-            let looked = witness.look(self.model, (t, point), (energy, self.place.work() + work));
+            let looked = witness.look(self.model, (t, point), (&energy, self.place.work() + work));
             self.place.met_energy(witness.scale());
             let defect = &mut self.trajectory.computation.energy_defect;
             *defect = larger(*defect, witness.worst());
@@ -343,13 +357,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Records the end so far, with its energy and the work there.
-    fn push(&mut self, energy: f64) -> Result<(), Reason> {
+    fn push(&mut self, energy: &Energy) -> Result<(), Reason> {
         let Trajectory { end: (t, point), times, points, energies, .. } = &mut *self.trajectory;
         times.push(*t);
         points.push(*point);
-        energies.outputs.push(energy);
+        energies.outputs.push(energy.value);
         energies.work.push(energies.work_at_end);
-        energies.scale = larger(energies.scale, energy_scale(self.model, point, energy));
+        energies.scale = larger(energies.scale, energy.scale());
         match &mut self.observe {
             Some(observe) => go_on(observe(*t, point), Callback::Observer),
             None => Ok(()),

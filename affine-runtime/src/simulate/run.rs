@@ -8,7 +8,7 @@ use super::layout::total;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::outcome::{Halt, Outcome};
-use super::point::{check, energy_scale};
+use super::point::{Energy, check};
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::simulation::Simulation;
@@ -52,7 +52,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let checked = run.settings.checked(&M::DESCRIPTION).map_err(Reason::from);
         let checked = checked.and_then(|_| check(run.settings.plan.t0, &run.settings.start));
         checked.map_err(|reason| {
-            let trajectory = Box::new(run.empty_trajectory());
+            let trajectory = Box::new(run.empty_trajectory(&run.energy_at_start()));
             Halt { stop: Stop { reason, t: trajectory.end.0, steps: 0 }, trajectory }
         })
     }
@@ -67,9 +67,10 @@ pub(super) struct Run<'a, const N: usize, P> {
 impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     /// Runs it; callbacks and events stay, for a run that goes on from there.
     pub(super) fn outcome(&mut self) -> Outcome<N, P> {
-        let mut trajectory = self.empty_trajectory();
+        let at_start = self.energy_at_start();
+        let mut trajectory = self.empty_trajectory(&at_start);
         let model = self.model;
-        let outcome = self.drive(&mut trajectory);
+        let outcome = self.drive(&mut trajectory, at_start);
         // The end is the last output, as a rule; an event may have changed it since.
         trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
             (Some(t), Some(energy)) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
@@ -84,13 +85,17 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         }
     }
 
-    fn empty_trajectory(&self) -> Trajectory<N, P> {
-        let Settings { plan, start, dense, .. } = &self.settings;
-        let dense = dense.map(|_| Box::new(Dense::new((plan.t0, *start))));
-        Trajectory { dense, ..empty_trajectory(self.model, plan, start) }
+    fn energy_at_start(&self) -> Energy {
+        Energy::at(self.model, self.settings.plan.t0, &self.settings.start)
     }
 
-    fn drive(&mut self, trajectory: &mut Trajectory<N, P>) -> Result<(), Reason> {
+    fn empty_trajectory(&self, at_start: &Energy) -> Trajectory<N, P> {
+        let Settings { plan, start, dense, .. } = &self.settings;
+        let dense = dense.map(|_| Box::new(Dense::new((plan.t0, *start))));
+        Trajectory { dense, ..empty_trajectory(self.model, plan, start, at_start) }
+    }
+
+    fn drive(&mut self, trajectory: &mut Trajectory<N, P>, at_start: Energy) -> Result<(), Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
         let Plan { t0, max_steps, .. } = self.settings.plan;
@@ -115,11 +120,12 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             is_lost: false,
             turn: None,
         };
-        let mut origin = (t0, self.settings.start);
+        let (mut origin, mut at_start) = ((t0, self.settings.start), Some(at_start));
         if let Some(checkpoint) = self.settings.checkpoint.take() {
+            at_start = None;
             origin = self.take_up(checkpoint, &events, &mut recorder)?;
         }
-        let outcome = self.legs(&mut origin, &mut recorder);
+        let outcome = self.legs(&mut origin, at_start, &mut recorder);
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
@@ -155,11 +161,18 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         Ok(origin)
     }
 
-    /// One integration after the other: where an event changes the point, the next one starts, and `from` is where.
-    fn legs(&self, from: &mut (f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    /// One integration after the other: where an event changes the point, the next one starts, and `from` is where. The energy
+    /// of the first may be known.
+    fn legs(
+        &self,
+        from: &mut (f64, P),
+        mut known: Option<Energy>,
+        recorder: &mut Recorder<'_, '_, N, P>,
+    ) -> Result<(), Reason> {
         let mut changes = 0;
         loop {
-            self.leg(from, recorder)?;
+            let energy = known.take().unwrap_or_else(|| Energy::at(self.model, from.0, &from.1));
+            self.leg(from, &energy, recorder)?;
             let (t, point, work, accumulation) = match recorder.turn.take() {
                 Some(Turn::Changed { t, point, work, accumulation }) => (t, point, work, accumulation),
                 Some(Turn::Anew { t, point, work }) => {
@@ -190,7 +203,12 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     /// The motion from a point to the end, or to an event that changes it.
-    fn leg(&self, from: &(f64, P), recorder: &mut Recorder<'_, '_, N, P>) -> Result<(), Reason> {
+    fn leg(
+        &self,
+        from: &(f64, P),
+        energy: &Energy,
+        recorder: &mut Recorder<'_, '_, N, P>,
+    ) -> Result<(), Reason> {
         let (t0, start) = (from.0, &from.1);
         let Plan { method, .. } = self.settings.plan;
         let tolerance = recorder.trajectory.computation.tolerance;
@@ -199,7 +217,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let geodesic = self.model.geodesic(t0, start);
         recorder.trajectory.computation.closed_form_exists = geodesic.is_some();
         let has_tolerance = method.step().is_none() && geodesic.is_none();
-        recorder.begin_energy(t0, start, has_tolerance.then_some(tolerance))?;
+        recorder.begin_at_energy((t0, start), energy, has_tolerance.then_some(tolerance))?;
         match (method, geodesic) {
             (Method::ClosedForm, None) => {
                 Err(Setting::NoClosedForm { model: self.model.description().name }.into())
@@ -227,9 +245,9 @@ pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
     model: &dyn Mechanics<N, P>,
     plan: &Plan,
     start: &P,
+    energy: &Energy,
 ) -> Trajectory<N, P> {
     let t0 = plan.t0;
-    let energy = model.hamiltonian(t0, start);
     Trajectory {
         description: model.description(),
         bases: model.bases().map(Box::new),
@@ -238,12 +256,12 @@ pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
         times: Vec::new(),
         points: Vec::new(),
         energies: Energies {
-            start: energy,
-            end: energy,
+            start: energy.value,
+            end: energy.value,
             outputs: Vec::new(),
             work: Vec::new(),
             work_at_end: 0.0,
-            scale: energy_scale(model, start, energy),
+            scale: energy.scale(),
         },
         statistics: Statistics::default(),
         events: Vec::new(),

@@ -1,7 +1,7 @@
 //! The energy as a witness: a motion that has lost it is not the one that was asked for.
 
 use super::mechanics::Mechanics;
-use super::point::energy_bound;
+use super::point::Energy;
 use crate::error::Reason;
 use crate::inner::{larger, norm};
 use crate::model::{Conserved, Description, Quantity};
@@ -33,14 +33,14 @@ pub(super) struct Witness {
 impl Witness {
     /// Of a motion that starts with an energy, less the work so far; `scale` is what was met before, and a method with a
     /// tolerance does not go on without its energy.
-    pub(super) fn begin<const N: usize, P: Phase<N>>(
-        model: &dyn Mechanics<N, P>,
-        (energy, work): (f64, f64),
-        (start, scale): (&P, f64),
+    pub(super) fn begin(
+        model: &Description,
+        (energy, work): (&Energy, f64),
+        scale: f64,
         tolerance: Option<f64>,
     ) -> Self {
-        let before = is_accounted_for(model.description()).then_some(energy - work);
-        Self { before, scale: larger(scale, size(model, start, energy)), worst: 0.0, tolerance }
+        let before = is_accounted_for(model).then_some(energy.value - work);
+        Self { before, scale: larger(scale, energy.size()), worst: 0.0, tolerance }
     }
 
     /// Largest `|T| + |U|` met.
@@ -62,13 +62,14 @@ impl Witness {
         &mut self,
         model: &dyn Mechanics<N, P>,
         (t, point): (f64, &P),
-        (energy, work): (f64, f64),
+        (at_point, work): (&Energy, f64),
     ) -> Result<(), Reason> {
+        let energy = at_point.value;
         if !energy.is_finite() {
             return Err(Reason::Energy { energy, t });
         }
         let Some(before) = self.before else { return Ok(()) };
-        self.scale = larger(self.scale, size(model, point, energy));
+        self.scale = larger(self.scale, at_point.size());
         let defect = (energy - work - before).abs();
         let named = self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance));
         let reach = self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance));
@@ -116,10 +117,4 @@ fn worth<const N: usize, P: Phase<N>>(
 fn is_accounted_for(model: &Description) -> bool {
     model.conserved.contains(&Conserved::Energy)
         || model.reduced.iter().any(|group| group.quantity == Quantity::Work)
-}
-
-/// `|T| + |U|`, with a bound of `|T|` that an indefinite kinetic energy has too.
-fn size<const N: usize, P: Phase<N>>(model: &dyn Mechanics<N, P>, point: &P, energy: f64) -> f64 {
-    let (bound, kinetic) = energy_bound(model, point);
-    bound + (energy - kinetic).abs()
 }

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, SVector, Vector3};
 use ode_solvers::System;
 
-use crate::timing::{Times, net};
-use crate::tools::{Measured, Problem};
+use crate::compiled::Compiled;
+use crate::tools::{Problem, Swept};
 
 type Placed = SVector<f64, 18>;
 type Moving = SVector<f64, 21>;
@@ -120,50 +120,37 @@ const PHI: [f64; 9] = [1.1, 0.05, -0.2, 0.2, 0.9, 0.1, -0.1, 0.15, 1.05];
 const SPIN: [f64; 9] = [0.1, -0.2, 0.35, 0.4, -0.15, -0.1, -0.3, 0.25, 0.05];
 
 /// Runs a problem with every tool at many tolerances; `end` is `phi` at the end.
-pub(crate) fn measure(problem: &str, end: Matrix3<f64>) -> Vec<(&'static str, Vec<Measured>)> {
+pub(crate) fn measure(name: &'static str, end: Matrix3<f64>, c: Option<&mut Compiled>) -> Vec<Swept> {
     let p = Vector3::new(0.3, -0.2, 0.5);
     let scaled = |factor: f64| placed(&PHI.map(|entry| entry * factor), &SPIN);
     let vibrating = |kappa: f64, c1: f64| move || Vibrating { kappa, c1 };
-    let pinned = |start, t_end| Problem { start, t_end, phi_at: 0, end };
-    let flying = |t_end| Problem { start: moving(), t_end, phi_at: 3, end };
-    match problem {
-        "P1" => flying(10.0).measure(|| Missile { kappa: 0.0, c1: 0.0, p }),
-        "P2" => pinned(scaled(1.0), 50.0).measure(vibrating(10.0, 0.5)),
-        "P2r" => pinned(scaled(1.0), 50.0).measure(|| Mirrored),
+    let pinned = |start, t_end| Problem { name, start, t_end, phi_at: 0, end };
+    let flying = |t_end| Problem { name, start: moving(), t_end, phi_at: 3, end };
+    match name {
+        "P1" => flying(10.0).measure(|| Missile { kappa: 0.0, c1: 0.0, p }, c),
+        "P2" => pinned(scaled(1.0), 50.0).measure(vibrating(10.0, 0.5), c),
+        "P2r" => pinned(scaled(1.0), 50.0).measure(|| Mirrored, c),
         "P3" | "P6" => {
-            let (kappa, t_end) = if problem == "P3" { (10.0, 50.0) } else { (1e6, 5.0) };
+            let (kappa, t_end) = if name == "P3" { (10.0, 50.0) } else { (1e6, 5.0) };
             let inertia = [1.0, 1.0, 1.0, 1.5, 1.5, 1.5, 2.0, 2.0, 2.0];
             let momentum: [f64; 9] = std::array::from_fn(|k| SPIN[k] * inertia[k]);
-            pinned(placed(&PHI, &momentum), t_end).measure(|| Elastic { kappa })
+            pinned(placed(&PHI, &momentum), t_end).measure(|| Elastic { kappa }, c)
         }
-        "P5 1e4" => pinned(scaled(1.0), 10.0).measure(vibrating(1e4, 0.5)),
-        "P5 1e6" => pinned(scaled(1.0), 10.0).measure(vibrating(1e6, 0.5)),
-        "P5 large" => pinned(scaled(0.3_f64.exp()), 10.0).measure(vibrating(1e4, 0.5)),
-        "P7" => flying(10.0).measure(|| Missile { kappa: 1e4, c1: 0.5, p }),
-        "P8" => pinned(scaled(1.0), 2.0).measure(vibrating(10.0, 1e4)),
+        "P5 1e4" => pinned(scaled(1.0), 10.0).measure(vibrating(1e4, 0.5), c),
+        "P5 1e6" => pinned(scaled(1.0), 10.0).measure(vibrating(1e6, 0.5), c),
+        "P5 large" => pinned(scaled(0.3_f64.exp()), 10.0).measure(vibrating(1e4, 0.5), c),
+        "P7" => flying(10.0).measure(|| Missile { kappa: 1e4, c1: 0.5, p }, c),
+        "P8" => pinned(scaled(1.0), 2.0).measure(vibrating(10.0, 1e4), c),
         _ => Vec::new(),
     }
 }
 
-/// Net times of one evaluation; `None` where only numbers differ from another problem.
-pub(crate) fn times(problem: &str) -> Option<Times> {
-    let p = Vector3::new(0.3, -0.2, 0.5);
+/// A state at which a problem's equations of all components can be timed.
+pub(crate) fn state(problem: &str) -> Vec<f64> {
     match problem {
-        "P1" => Some(of_system(&Missile { kappa: 0.0, c1: 0.0, p }, moving())),
-        "P2" => Some(of_system(&Vibrating { kappa: 10.0, c1: 0.5 }, placed(&PHI, &SPIN))),
-        "P2r" => Some(of_system(&Mirrored, placed(&PHI, &SPIN))),
-        "P3" => Some(of_system(&Elastic { kappa: 10.0 }, placed(&PHI, &SPIN))),
-        "P7" => Some(of_system(&Missile { kappa: 1e4, c1: 0.5, p }, moving())),
-        _ => None,
+        "P1" | "P7" => moving().as_slice().to_vec(),
+        _ => placed(&PHI, &SPIN).as_slice().to_vec(),
     }
-}
-
-fn of_system<const D: usize>(system: &impl System<f64, SVector<f64, D>>, start: SVector<f64, D>) -> Times {
-    net(start.into(), |y| {
-        let mut slope = SVector::zeros();
-        system.system(0.0, &SVector::from(*y), &mut slope);
-        slope.into()
-    })
 }
 
 fn placed(phi: &[f64; 9], spin: &[f64; 9]) -> Placed {

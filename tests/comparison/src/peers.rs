@@ -15,32 +15,28 @@ pub(crate) struct Peer {
 /// # Errors
 /// In words: the column that is missing, or the line that does not hold a number where one should be.
 pub(crate) fn read(text: &str) -> Result<Vec<Peer>, String> {
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let mut lines = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
+    let head = lines.headers().map_err(|error| error.to_string())?.clone();
     let column = |name: &str| {
         head.iter()
-            .position(|cell| *cell == name)
+            .position(|cell| cell == name)
             .ok_or(format!("there is no column `{name}` in the first line"))
     };
     let (tool, problem) = (column("tool")?, column("problem")?);
     let (error, time) = (column("error_phi")?, column("microseconds")?);
     let mut peers = Vec::new();
-    for (index, line) in lines.enumerate().filter(|(_, line)| !line.is_empty()) {
-        let cells: Vec<&str> = line.split(',').collect();
-        let cell = |column: usize| cells.get(column).copied().unwrap_or_default();
+    for line in lines.records() {
+        let line = line.map_err(|error| error.to_string())?;
+        let at = line.position().map_or(0, csv::Position::line);
+        let cell = |column: usize| line.get(column).unwrap_or_default();
         let number = |column: usize| {
-            cell(column).parse::<f64>().map_err(|_| {
-                format!("line {}: `{}` is no number, {} should be", index + 2, cell(column), head[column])
-            })
+            let wrong = || format!("line {at}: `{}` is no number, {} should be", cell(column), &head[column]);
+            cell(column).parse::<f64>().map_err(|_| wrong())
         };
         let time = Duration::try_from_secs_f64(1e-6 * number(time)?)
-            .map_err(|_| format!("line {}: a run time is not negative", index + 2))?;
-        peers.push(Peer {
-            tool: cell(tool).to_owned(),
-            problem: cell(problem).to_owned(),
-            error: number(error)?,
-            time,
-        });
+            .map_err(|_| format!("line {at}: a run time is not negative"))?;
+        let (tool, problem) = (cell(tool).to_owned(), cell(problem).to_owned());
+        peers.push(Peer { tool, problem, error: number(error)?, time });
     }
     Ok(peers)
 }
@@ -51,12 +47,11 @@ mod tests {
 
     #[test]
     fn columns_are_found_by_name() {
-        let text =
-            "problem,tool,steps,microseconds,error_phi\nP2,heyoka,12,784,1e-12\n\nP3,heyoka,,1.5,2e-3\n";
+        let text = "problem,tool,steps,microseconds,error_phi\nP2,heyoka,12,784,1e-12\n\nP3,\"heyoka, fast\",,1.5,2e-3\n";
         let peers = read(text).unwrap_or_default();
         let found: Vec<_> =
             peers.iter().map(|p| (p.tool.as_str(), p.problem.as_str(), p.error, p.time.as_nanos())).collect();
-        assert_eq!(found, [("heyoka", "P2", 1e-12, 784_000), ("heyoka", "P3", 2e-3, 1_500)]);
+        assert_eq!(found, [("heyoka", "P2", 1e-12, 784_000), ("heyoka, fast", "P3", 2e-3, 1_500)]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Time of one evaluation of a right-hand side, less that of moving the numbers.
+//! Time of one evaluation of a right-hand side, with that of moving the numbers.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -23,44 +23,25 @@ pub(crate) struct Times {
     pub(crate) throughput: f64,
 }
 
-/// Times of `f` around a state, less those of a function that only copies.
-pub(crate) fn net<const D: usize>(start: [f64; D], f: impl Fn(&[f64; D]) -> [f64; D]) -> Times {
-    let (whole, floor) = (gross(start, f), gross(start, |y| *y));
-    Times { chain: whole.chain - floor.chain, throughput: whole.throughput - floor.throughput }
-}
-
 /// A right-hand side. A trait, since a closure is not made part of the function that is compiled for wide vectors.
 pub(crate) trait Equations<S> {
     /// Writes the slope; to be `#[inline(always)]`.
     fn slope(&self, y: &S, slope: &mut S);
 }
 
-struct Copying;
-
-impl<S: Copy> Equations<S> for Copying {
-    #[inline(always)]
-    fn slope(&self, y: &S, slope: &mut S) {
-        *slope = *y;
-    }
-}
-
-/// Nanoseconds for one state of a block in lanes, with the widest vectors there are, less those of copying.
-pub(crate) fn net_in_lanes<T: Lanes, S: Copy>(state: S, equations: &impl Equations<S>) -> f64 {
-    (gross_in_lanes::<T, S>(state, equations) - gross_in_lanes::<T, S>(state, &Copying)) / STATES as f64
-}
-
-/// Passes over a block that the nearest cache holds: one of 4096 states is copied as slowly as it is evaluated, and
-/// nothing is left of an evaluation.
-fn gross_in_lanes<T: Lanes, S: Copy>(state: S, equations: &impl Equations<S>) -> f64 {
+/// Nanoseconds for one state of a block in lanes, with the widest vectors there are. The nearest cache holds the block: one
+/// of 4096 states is read and written as slowly as it is evaluated.
+pub(crate) fn in_lanes<T: Lanes, S: Copy>(state: S, equations: &impl Equations<S>) -> f64 {
     let states = vec![state; BLOCK / T::LANES];
     let mut slopes = states.clone();
     let arch = pulp::Arch::new();
-    least(|| {
+    let whole = least(|| {
         for _ in 0..STATES / BLOCK {
             arch.dispatch(Pass { states: black_box(&states), slopes: &mut slopes, equations });
             black_box(&mut slopes);
         }
-    })
+    });
+    whole / STATES as f64
 }
 
 /// A right-hand side at each state.
@@ -80,12 +61,13 @@ impl<S, E: Equations<S>> pulp::WithSimd for Pass<'_, S, E> {
     }
 }
 
-fn gross<const D: usize>(start: [f64; D], f: impl Fn(&[f64; D]) -> [f64; D]) -> Times {
+/// Times of `f` from a state on.
+pub(crate) fn alone<S: AsRef<[f64]> + AsMut<[f64]> + Copy>(start: S, f: impl Fn(&S) -> S) -> Times {
     let chain = least(|| {
         let mut y = black_box(start);
         for _ in 0..LINKS {
             let slope = f(&y);
-            for (y, slope) in y.iter_mut().zip(&slope) {
+            for (y, slope) in y.as_mut().iter_mut().zip(slope.as_ref()) {
                 // So little that the state stays where it is.
                 *y += 1e-12 * slope;
             }

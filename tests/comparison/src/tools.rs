@@ -1,5 +1,7 @@
-//! Other integrators on the right-hand sides written by hand, timed in the same run.
+//! Other integrators, timed in the same run: DOP853 in C over generated equations, and two crates on right-hand sides
+//! written by hand.
 
+use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use differential_equations::methods::ExplicitRungeKutta;
@@ -9,9 +11,11 @@ use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 
 use crate::by_hand::matrix;
+use crate::compiled::{Compiled, STATEMENTS};
 
 /// What is integrated, and what `phi` should be in the end.
 pub(crate) struct Problem<const D: usize> {
+    pub(crate) name: &'static str,
     pub(crate) start: SVector<f64, D>,
     pub(crate) t_end: f64,
     /// Where `phi` begins in the state.
@@ -19,7 +23,11 @@ pub(crate) struct Problem<const D: usize> {
     pub(crate) end: Matrix3<f64>,
 }
 
+/// A tool, and its runs from loose tolerances to tight ones.
+pub(crate) type Swept = (&'static str, Vec<Measured>);
+
 /// One run.
+#[derive(Clone)]
 pub(crate) struct Measured {
     pub(crate) tolerance: f64,
     pub(crate) error: f64,
@@ -38,11 +46,40 @@ impl<const D: usize> Problem<D> {
     pub(crate) fn measure<F: System<f64, SVector<f64, D>>>(
         &self,
         system: impl Fn() -> F,
-    ) -> Vec<(&'static str, Vec<Measured>)> {
-        vec![
-            ("ode_solvers DOP853", self.sweep(|tolerance| self.dop853(system(), tolerance))),
-            ("differential-equations RKV 9(8)", self.sweep(|tolerance| self.verner(system(), tolerance))),
-        ]
+        compiled: Option<&mut Compiled>,
+    ) -> Vec<Swept> {
+        let mut tools = Vec::new();
+        if let Some(compiled) = compiled {
+            for (tool, name) in STATEMENTS {
+                tools.push((name, sweep(|tolerance| self.compiled(compiled, tool, tolerance))));
+            }
+        }
+        tools.push((
+            "ode_solvers DOP853",
+            sweep(|tolerance| self.timed(tolerance, || self.dop853(system(), tolerance))),
+        ));
+        tools.push((
+            "differential-equations RKV 9(8)",
+            sweep(|tolerance| self.timed(tolerance, || self.verner(system(), tolerance))),
+        ));
+        tools
+    }
+
+    fn compiled(&self, compiled: &mut Compiled, tool: &str, tolerance: f64) -> Option<Measured> {
+        let settings = [tolerance, self.t_end, BURST.as_secs_f64()];
+        let run = compiled.run(tool, self.name, settings, self.start.as_slice())?;
+        let (error, time) = (self.error(&run.end), run.time);
+        Some(Measured { tolerance, error, evaluations: run.evaluations, time })
+    }
+
+    fn timed(&self, tolerance: f64, run: impl Fn() -> Reached<D>) -> Option<Measured> {
+        let (time, reached) = least_time(run);
+        let (end, evaluations) = reached?;
+        Some(Measured { tolerance, error: self.error(end.as_slice()), evaluations, time })
+    }
+
+    fn error(&self, end: &[f64]) -> f64 {
+        (matrix(end, self.phi_at) - self.end).norm() / self.end.norm()
     }
 
     fn dop853(&self, system: impl System<f64, SVector<f64, D>>, tolerance: f64) -> Reached<D> {
@@ -80,19 +117,6 @@ impl<const D: usize> Problem<D> {
             .ok()?;
         Some((SVector::from(*solution.y.last()?), solution.evals.function as u64))
     }
-
-    fn sweep(&self, run: impl Fn(f64) -> Reached<D>) -> Vec<Measured> {
-        let measured = |k: i32| {
-            let tolerance = 10f64.powf(-0.5 * f64::from(k));
-            let (reached, evaluations) = run(tolerance)?;
-            let error = (matrix(reached.as_slice(), self.phi_at) - self.end).norm() / self.end.norm();
-            let time = median_time(|| {
-                std::hint::black_box(run(tolerance));
-            });
-            Some(Measured { tolerance, error, evaluations, time })
-        };
-        (2..=29).filter_map(measured).collect()
-    }
 }
 
 /// A system over plain arrays.
@@ -106,15 +130,45 @@ impl<const D: usize, F: System<f64, SVector<f64, D>>> ODE<f64, [f64; D]> for InA
     }
 }
 
-/// Median of up to 15 repeats, fewer where they take long.
-fn median_time(run: impl Fn()) -> Duration {
+/// Runs at two tolerances for each power of ten.
+pub(crate) fn sweep(run: impl FnMut(f64) -> Option<Measured>) -> Vec<Measured> {
+    (2..=29).map(|k| 10f64.powf(-0.5 * f64::from(k))).filter_map(run).collect()
+}
+
+/// As long as one run is repeated.
+const BURST: Duration = Duration::from_millis(6);
+
+/// The least time of runs within a burst, as the program in C measures it, and what came out.
+pub(crate) fn least_time<T>(run: impl Fn() -> T) -> (Duration, T) {
     let begun = Instant::now();
-    let mut times = Vec::new();
-    while times.len() < 15 && (times.is_empty() || begun.elapsed() < Duration::from_millis(150)) {
+    let mut least = Duration::MAX;
+    loop {
         let now = Instant::now();
-        run();
-        times.push(now.elapsed());
+        let reached = black_box(run());
+        least = least.min(now.elapsed());
+        if begun.elapsed() >= BURST {
+            return (least, reached);
+        }
     }
-    times.sort_unstable();
-    times[times.len() / 2]
+}
+
+/// Of interleaved rounds of the same runs, the median time of each run.
+pub(crate) fn medians(mut rounds: Vec<Vec<Swept>>) -> Vec<Swept> {
+    let mut tools = rounds.pop().unwrap_or_default();
+    for (which, (_, runs)) in tools.iter_mut().enumerate() {
+        for run in runs {
+            let same = |round: &Vec<Swept>| {
+                round
+                    .get(which)?
+                    .1
+                    .iter()
+                    .find(|other| other.tolerance == run.tolerance)
+                    .map(|other| other.time)
+            };
+            let mut times: Vec<Duration> = rounds.iter().filter_map(same).chain([run.time]).collect();
+            times.sort_unstable();
+            run.time = times[times.len() / 2];
+        }
+    }
+    tools
 }

@@ -15,6 +15,7 @@ use crate::simulate::method::Method;
 use crate::simulate::methods::automatic;
 use crate::simulate::motion::{Followed, PointOf};
 use crate::simulate::orientation::passes_through_zero;
+use crate::simulate::point::Energy;
 use crate::simulate::point::is_clearly_positive;
 use crate::simulate::run::empty_trajectory;
 use crate::simulate::settings::Plan;
@@ -66,7 +67,9 @@ where
         let mut waiting =
             together.chunks(T::LANES).flat_map(|points| begun::<N, T, H::Model>(course, points));
         let Some(first) = waiting.next() else { return };
-        let trajectory = empty_trajectory(&models[first.body], self.plan, &starts[first.body].point);
+        let (model, start) = (&models[first.body], &starts[first.body].point);
+        let energy = Energy::at(model, self.plan.t0, start);
+        let trajectory = empty_trajectory(model, self.plan, start, &energy);
         let mut trajectories = vec![trajectory; T::LANES];
         let record =
             |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
