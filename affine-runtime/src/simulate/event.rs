@@ -56,7 +56,7 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// its ends, with Hamilton's equations there: that asks neither dense output nor a closed form. What it tells counts if the step is
 /// short for the motion, that is, if placement, momentum, `x` and `p` each rise by what the trapezoidal rule makes of their rates,
 /// up to 1/32 of themselves, and `|phi_dot| dt <= |phi|`; and if each function stays away from zero by 1/8 of what it changes by,
-/// or goes through it in the direction that does not count, and does not turn. All other steps are looked at on the dense output,
+/// or goes through it and does not turn, an event where that direction counts. All other steps are looked at on the dense output,
 /// where events are located.
 ///
 /// The time is located on the dense output of the step to the rounding of times: it has the error of the dense output over the
