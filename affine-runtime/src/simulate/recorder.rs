@@ -117,8 +117,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
 
     /// Begins to look for them where steps begin.
     fn watch_from(&mut self, t: f64, point: &P) {
-        self.watcher.begin(t, point, turning(self.model, point), &self.place.events);
         if self.has_events() {
+            self.watcher.begin(t, point, turning(self.model, point), &self.place.events);
             self.watcher.begin_steps(self.model, point);
         }
     }

@@ -27,6 +27,8 @@ const AT_ZERO: f64 = 1e-3;
 const ROUNDED: f64 = 1e-12;
 /// Part of the rate at which a function came to zero that is no rate at which it goes on.
 const AT_REST: f64 = 1e-6;
+/// Part of the rate at one sample that is expected at the next: an oscillation is slow where it turns, and fast again after that.
+const EXPECTED: f64 = 0.75;
 /// Equal parts of a step at whose ends functions are looked at, where its length follows the error.
 pub(super) const WITHIN_A_STEP: u32 = told::PARTS as u32;
 
@@ -157,7 +159,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         let bases = self.bases;
         let bases = bases.as_ref();
         let point = known.map_or_else(|| at(t).map(|(point, _)| point), Ok)?;
-        (self.end.t, self.end.rate) = (t, rate(&point));
+        (self.end.t, self.end.rate) = (t, larger(rate(&point), EXPECTED * self.begin.rate));
         if self.are_where_they_were(&point) {
             return Ok(Vec::new());
         }
