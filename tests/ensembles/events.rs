@@ -158,10 +158,7 @@ fn crossings_that_steps_pass_over() {
     let beyond: Vec<bool> = fine.points().iter().map(|point| point.phi().determinant() > 1.0).collect();
     let changes = beyond.windows(2).filter(|pair| pair[0] != pair[1]).count();
     let found = simulation().event(Event::determinant(1.0)).run().unwrap();
-    // Samples pass over some of them: the rate where one begins tells where the next one stands, and vanishes at turning points.
+    // The rate where a sample stands tells where the next one does, and what it was before, since it vanishes at turning points.
     let (steps, found) = (found.statistics().steps as usize, found.events().len());
-    assert!(
-        found > 2 * steps && 4 * found > 3 * changes && found <= changes,
-        "{found} of {changes} in {steps}"
-    );
+    assert!(found > 2 * steps && found + 2 >= changes && found <= changes, "{found} of {changes} in {steps}");
 }

@@ -68,6 +68,7 @@ pub mod __private {
         pub use crate::splitting::adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, ORDER, fastest};
         pub use crate::splitting::coefficients::Sweeps;
         pub use crate::tape::Tape;
+        pub use crate::widest::vectorized;
         pub use affine_core::__private::numerics::IS_FUSED;
     }
 }

@@ -84,6 +84,21 @@ pub(crate) fn widest<W: Work>(work: W) -> W::Output {
     work.run(Baseline)
 }
 
+/// A function called that is compiled a second time, if it is inlined: its loops are in the widest vectors there are. Rust fuses
+/// no multiply-add that is not asked for, so that each copy gives the same bits.
+#[inline(always)]
+pub fn vectorized<R>(function: impl FnOnce() -> R) -> R {
+    struct Called<F>(F);
+    impl<R, F: FnOnce() -> R> Work for Called<F> {
+        type Output = R;
+        #[inline(always)]
+        fn run(self, _vectors: impl Vectors) -> R {
+            (self.0)()
+        }
+    }
+    widest(Called(function))
+}
+
 /// The work done, with the most registers there are: a loop over more vectors than sixteen is worth a third time. With
 /// AVX-512 there are thirty-two, also of the vectors of AVX2, and an operand that one number of memory fills needs none.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]

@@ -42,21 +42,22 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// # What is found
 ///
 /// Changes of sign between samples of the function. Samples are taken at the ends of every step, at three times within it
-/// where steps follow the error, and so close together that `|phi_dot| dt <= |phi|/2`; with a closed form at outputs, at 400
-/// times in all at least, and so that [`rate`](crate::geodesic::Geodesic::rate)` dt <= 1/2`, whatever the outputs: the body
-/// turns by half a radian at most, and its log-stretches change by a half, from one sample to the next. Of a level of `phi`
-/// or of its stretches all crossings are found that are further apart than that, by every method, in both directions of time,
-/// and in their order. Not guaranteed: an even number of roots closer together, two crossings of a level that is only just
-/// reached among them; a function of the time, or of the centre, that changes faster than the placement and the steps; fast
-/// oscillations of a stiff dilatation, which adaptive splitting passes over, or which moves in closed form beside steps that
-/// are long for it. A run in closed form costs two samples or more for each radian, of one evaluation of the motion each; they
+/// where steps follow the error, and so close together that `|phi_dot| dt <= |phi|/2`, for the velocity at a sample or three
+/// quarters of what counted at the one before; with a closed form at outputs, at 400 times in all at least, and so that
+/// [`rate`](crate::geodesic::Geodesic::rate)` dt <= 1/2`, whatever the outputs: the body turns by half a radian at most, and its
+/// log-stretches change by a half, from one sample to the next. Of a level of `phi` or of its stretches all crossings are found
+/// that are further apart than that, by every method, in both directions of time, and in their order. Not guaranteed: an even
+/// number of roots closer together, two crossings of a level that is only just reached among them; a function of the time, or of
+/// the centre, that changes faster than the placement and the steps; fast oscillations of a stiff dilatation, which adaptive
+/// splitting passes over, or which moves in closed form beside steps that are long for it, where its logarithm changes by less
+/// than a half. A run in closed form costs two samples or more for each radian, of one evaluation of the motion each; they
 /// take no memory, and [`progress`](super::Simulation::progress) is called after every few of them.
 ///
 /// Where steps follow the error, samples within a step are first taken on the cubic through the numbers of the phase points at
 /// its ends, with Hamilton's equations there: that asks neither dense output nor a closed form. What it tells counts if the step is
 /// short for the motion, that is, if placement, momentum, `x` and `p` each rise by what the trapezoidal rule makes of their rates,
 /// up to 1/32 of themselves, and `|phi_dot| dt <= |phi|`; and if each function stays away from zero by 1/8 of what it changes by,
-/// or goes through it in the direction that does not count, and does not turn. All other steps are looked at on the dense output,
+/// or goes through it and does not turn, an event where that direction counts. All other steps are looked at on the dense output,
 /// where events are located.
 ///
 /// The time is located on the dense output of the step to the rounding of times: it has the error of the dense output over the

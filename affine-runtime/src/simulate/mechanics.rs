@@ -7,8 +7,9 @@ use super::motion::{Boxed, Motion, PointOf, Purpose};
 use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::geodesic::Geodesic;
+use crate::inner::vectorized;
 use crate::metrics::Bases;
-use crate::model::{Description, Model, Regularity, Velocity};
+use crate::model::{Description, Model, Regularity, StateVector, Velocity};
 
 /// A model as far as its phase points go, and the motion from one of them, in whatever variables.
 ///
@@ -28,8 +29,9 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn velocity(&self, point: &P) -> Velocity<N>;
     /// Sets a knot to a point.
     fn knot(&self, t: f64, point: &P, knot: &mut Knot);
-    /// Whether a cubic tells the motion, and the points on it are such after each of some parts.
-    fn on_cubic(&self, cubic: Cubic<'_>, parts: &[f64], are: &mut dyn FnMut(f64, &P) -> bool) -> bool;
+    /// The points on a cubic after each quarter of the step, with the number of the quarter, if it tells the motion; whether it
+    /// does.
+    fn on_cubic(&self, cubic: Cubic<'_>, each: &mut dyn FnMut(u8, &P)) -> bool;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
     /// When a closed form leaves GL+(n).
@@ -88,14 +90,19 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     fn knot(&self, t: f64, point: &M::Point<f64>, knot: &mut Knot) {
         knot.set(self.handle.model(), t, point);
     }
-    fn on_cubic(
-        &self,
-        cubic: Cubic<'_>,
-        parts: &[f64],
-        are: &mut dyn FnMut(f64, &M::Point<f64>) -> bool,
-    ) -> bool {
-        let mut is = |part: &f64| are(*part, &cubic.point(self.handle.model(), *part));
-        cubic.is_plain::<N, M>() && parts.iter().all(&mut is)
+    fn on_cubic(&self, cubic: Cubic<'_>, each: &mut dyn FnMut(u8, &M::Point<f64>)) -> bool {
+        let model = self.handle.model();
+        vectorized(
+            #[inline(always)]
+            || {
+                let mut quarters = [M::Full::<f64>::zeros(); 3];
+                let is_plain = cubic.quarters::<N, M>(&mut quarters);
+                if is_plain {
+                    (1..).zip(&quarters).for_each(|(quarter, full)| each(quarter, &model.unflatten(full)));
+                }
+                is_plain
+            },
+        )
     }
     fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
         self.handle.model().geodesic(t0, point)

@@ -13,7 +13,7 @@ use super::progress::{Observe, Progress, Watch};
 use super::range::in_range;
 use super::standing::Side;
 use super::trajectory::Trajectory;
-use super::watcher::{At, Met, Sampling, Watcher};
+use super::watcher::{At, Met, Sampling, Step, Watcher};
 use super::witness::Witness;
 use crate::error::Error;
 use crate::error::{Callback, Reason};
@@ -180,13 +180,18 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
-        if sampling.by_ends && self.has_events() && self.watcher.passes(model, end, rate, at)? {
-            return Ok(false);
+        let mut known = None;
+        if sampling.by_ends && self.has_events() {
+            match self.watcher.passes(model, (end, sampling.rate), at)? {
+                Step::Quiet => return Ok(false),
+                Step::Crossed(point) => known = Some(point),
+                Step::Open => {}
+            }
         }
         let (mut count, mut samples) = (0, 0_u32);
         while self.has_events() && self.watcher.t() != end {
-            let sample = self.watcher.next(start, end, sampling);
-            for met in self.watcher.look(sample, rate, at)? {
+            let sample = if known.is_some() { end } else { self.watcher.next(start, end, sampling) };
+            for met in self.watcher.look((sample, known), rate, at)? {
                 count += 1;
                 self.watcher.happened(&met);
                 // Those before had happened when the run was interrupted.

@@ -3,7 +3,11 @@
 /// Iterations that bisection alone needs between any two doubles, and as many again.
 const MOST_ITERATIONS: u32 = 2 * 1100;
 
-/// The time in `(a, b]`, at a distance of rounding from a root, at which the sign is that of `fb` or zero.
+/// The least part of the bracket that is cut off first.
+const NEAREST: f64 = 1e-3;
+
+/// The time in `(a, b]`, at a distance of rounding from a root, at which the sign is that of `fb` or zero: looked for first after
+/// a part of the way from `a`.
 ///
 /// Inverse quadratic interpolation where it is safe, bisection elsewhere (T. R. Chandrupatla, Advances in Engineering
 /// Software 28 (1997) 145-149), until the bracket is as short as two floating-point numbers allow.
@@ -14,6 +18,7 @@ pub(super) fn root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     (a, fa): (f64, f64),
     (b, fb): (f64, f64),
+    first: f64,
 ) -> Result<f64, E> {
     // It has neither sign, and would not close a bracket.
     if fb == 0.0 {
@@ -23,7 +28,7 @@ pub(super) fn root<E>(
     // The last time tried, and the other end of the bracket.
     let (mut near, mut far) = ((b, fb), (a, fa));
     let mut before;
-    let mut part = 0.5;
+    let mut part = (1.0 - first).clamp(NEAREST, 1.0 - NEAREST);
     for _ in 0..MOST_ITERATIONS {
         let t = near.0 + part * (far.0 - near.0);
         if t == near.0 || t == far.0 {
@@ -74,7 +79,7 @@ mod tests {
             calls += 1;
             Ok::<f64, Infallible>(f(t))
         };
-        let found = root(counted, (a, f(a)), (b, f(b)));
+        let found = root(counted, (a, f(a)), (b, f(b)), 0.5);
         (found.unwrap_or_else(|never| match never {}), calls)
     }
 

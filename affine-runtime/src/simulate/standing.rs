@@ -12,6 +12,7 @@ pub(super) enum Side {
 
 impl Side {
     /// Where a value lies; `None` for zero and for what is no number.
+    #[inline]
     pub(super) fn of(value: f64) -> Option<Self> {
         match value {
             _ if value < 0.0 => Some(Self::Negative),
@@ -46,6 +47,7 @@ pub(super) enum Standing {
 
 impl Standing {
     /// At a sample where nothing but the value is known.
+    #[inline]
     pub(super) fn of(value: f64) -> Self {
         Side::of(value).map_or(Self::Open, Self::On)
     }

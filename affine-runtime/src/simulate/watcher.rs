@@ -15,6 +15,7 @@ use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
+pub(super) use told::Step;
 use told::Told;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
@@ -26,8 +27,10 @@ const AT_ZERO: f64 = 1e-3;
 const ROUNDED: f64 = 1e-12;
 /// Part of the rate at which a function came to zero that is no rate at which it goes on.
 const AT_REST: f64 = 1e-6;
+/// Part of the rate at one sample that is expected at the next: an oscillation is slow where it turns, and fast again after that.
+const EXPECTED: f64 = 0.75;
 /// Equal parts of a step at whose ends functions are looked at, where its length follows the error.
-pub(super) const WITHIN_A_STEP: u32 = 4;
+pub(super) const WITHIN_A_STEP: u32 = told::PARTS as u32;
 
 /// The phase point at a time, and the work.
 pub(super) type At<'m, P> = dyn FnMut(f64) -> Result<WithWork<P>, Reason> + 'm;
@@ -83,10 +86,10 @@ pub(super) struct Watcher<'a, const N: usize, P> {
     end: Sample,
     /// The motion at both ends of a step, where there are events.
     knots: Option<[Box<Knot>; 2]>,
-    /// What is told of functions within it.
+    /// What is told of functions within it, as far as that is all there is to know.
     ways: Vec<Told>,
-    /// The point where the part begins, if its rate is not known yet.
-    passed: Option<P>,
+    /// The rate where the part begins is not known yet.
+    has_passed: bool,
     /// Events that are still at zero at the end of the part.
     stays: Vec<bool>,
     /// An event whose change has left its function at rest at zero: [`Reason::Accumulation`].
@@ -98,7 +101,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
         let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
         let (memory, ways) = (Vec::new(), Vec::new());
-        Self { memory, begin, end, knots: None, ways, passed: None, stays, rests: None, events, bases }
+        Self { memory, begin, end, knots: None, ways, has_passed: false, stays, rests: None, events, bases }
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -124,7 +127,8 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             _ => memory.to_vec(),
         };
         self.begin = Sample { t, values, rate };
-        self.passed = None;
+        self.has_passed = false;
+        self.ways.clear();
     }
 
     /// The number of parts of at most the length that samples allow, on the way to a time.
@@ -142,20 +146,20 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         if parts <= 1.0 || t == self.begin.t { end } else { t }
     }
 
-    /// All that happens on the way to a sample, in the order of the run.
+    /// All that happens on the way to a sample, whose point may be known, in the order of the run.
     ///
     /// # Errors
     /// Those of `at`; [`Reason::Event`] for a function that is no number.
     pub(super) fn look(
         &mut self,
-        t: f64,
+        (t, known): (f64, Option<P>),
         rate: impl Fn(&P) -> f64,
         at: &mut At<'_, P>,
     ) -> Result<Vec<Met<P>>, Reason> {
         let bases = self.bases;
         let bases = bases.as_ref();
-        let (point, _) = at(t)?;
-        (self.end.t, self.end.rate) = (t, rate(&point));
+        let point = known.map_or_else(|| at(t).map(|(point, _)| point), Ok)?;
+        (self.end.t, self.end.rate) = (t, larger(rate(&point), EXPECTED * self.begin.rate));
         if self.are_where_they_were(&point) {
             return Ok(Vec::new());
         }
@@ -170,7 +174,8 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
                 continue;
             }
             let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
-            let time = root(function, begin, (t, value))?;
+            let first = self.ways.get(index).map_or(0.5, Told::zero);
+            let time = root(function, begin, (t, value), first)?;
             let middle = begin.0 + 0.5 * (time - begin.0);
             let rate = match event.action {
                 Action::Change(_) => (event.value(middle, &at(middle)?.0, bases)? / (time - middle)).abs(),
@@ -264,9 +269,10 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
 
     /// The next part begins where this one ends.
     pub(super) fn pass(&mut self) {
-        for (index, memory) in self.memory.iter_mut().enumerate() {
-            if !core::mem::take(&mut self.stays[index]) {
-                memory.standing = Standing::of(self.end.values[index]);
+        let all = self.memory.iter_mut().zip(&mut self.stays).zip(&self.end.values);
+        for ((memory, stays), value) in all {
+            if !core::mem::take(stays) {
+                memory.standing = Standing::of(*value);
             }
         }
         core::mem::swap(&mut self.begin, &mut self.end);

@@ -69,11 +69,12 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
             is_lost: false,
             turn: None,
         };
+        let due = recorder.schedule.take_through(t0, recorder.backward);
         let begun = recorder.begin_energy(t0, &start.point, Some(plan.tolerance));
         let is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
-        let mut begun = Self { recorder, folded: (asked.begin)(start.number, &start.handle), is_refused };
-        begun.hand_over(asked.add);
-        begun
+        let mut folded = (asked.begin)(start.number, &start.handle);
+        due.iter().for_each(|t| (asked.add)(&mut folded, *t, &start.point));
+        Self { recorder, folded, is_refused }
     }
 
     /// Looks at a step to a time: events, and outputs.

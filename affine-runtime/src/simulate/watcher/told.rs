@@ -3,41 +3,65 @@
 /// Part of what a function changes by in a step: a cubic tells that it is further than that from zero.
 const NEAR_ZERO: f64 = 0.125;
 
-/// The way of a function through a step, by its distances beyond zero: positive on the side of the end.
-#[derive(Clone, Copy)]
-pub(super) struct Told {
-    side: f64,
-    begin: f64,
-    last: f64,
-    least: f64,
-    most: f64,
-    /// The least rise from one sample to the next.
-    rise: f64,
+/// What the ends of a step tell of it.
+pub(in super::super) enum Step<P> {
+    /// Nothing happens within it.
+    Quiet,
+    /// Functions go through zero, each of them once; the point at the end.
+    Crossed(P),
+    /// Samples have to be looked at.
+    Open,
 }
 
+/// The values of a function along a step, at its ends and after each quarter of it.
+#[derive(Clone, Copy)]
+pub(super) struct Told([f64; PARTS + 1]);
+
+/// The quarters.
+pub(super) const PARTS: usize = 4;
+
 impl Told {
-    /// From its value at the begin of the step, on the way to that at the end.
+    /// Those at the ends.
     pub(super) fn between(begin: f64, end: f64) -> Self {
-        let side = end.signum();
-        let begin = begin * side;
-        Self { side, begin, last: begin, least: begin, most: begin, rise: f64::INFINITY }
+        Self([begin, f64::NAN, f64::NAN, f64::NAN, end])
     }
 
-    /// To its next value, if that is a number.
-    pub(super) fn goes(&mut self, value: f64) -> bool {
-        let distance = value * self.side;
-        let rise = distance - self.last;
-        self.rise = if rise < self.rise { rise } else { self.rise };
-        self.least = if distance < self.least { distance } else { self.least };
-        self.most = if distance > self.most { distance } else { self.most };
-        self.last = distance;
-        !distance.is_nan()
+    /// That after some quarters.
+    pub(super) fn set(&mut self, quarter: u8, value: f64) {
+        if let Some(own) = self.0.get_mut(usize::from(quarter)) {
+            *own = value;
+        }
     }
 
-    /// It does not come near zero, or goes through it without turning.
-    pub(super) fn ends_plainly(&mut self, value: f64) -> bool {
-        let near = |told: &Self| NEAR_ZERO * (told.most - told.least);
-        self.goes(value) && if self.begin > 0.0 { self.least > near(self) } else { self.rise > near(self) }
+    /// Distances beyond zero: positive on the side of the end.
+    fn distances(&self) -> [f64; PARTS + 1] {
+        let side = self.0[PARTS].signum();
+        self.0.map(|value| value * side)
+    }
+
+    /// All values are numbers, and the function does not come near zero, or goes through it without turning.
+    pub(super) fn is_plain(&self) -> bool {
+        let distances = self.distances();
+        let (begin, mut rise) = (distances[0], f64::INFINITY);
+        let (mut least, mut most, mut sum) = (begin, begin, begin);
+        for k in 0..PARTS {
+            let (distance, risen) = (distances[k + 1], distances[k + 1] - distances[k]);
+            // One instruction each, where NaN is looked for besides.
+            least = if distance < least { distance } else { least };
+            most = if distance > most { distance } else { most };
+            rise = if risen < rise { risen } else { rise };
+            sum += distance;
+        }
+        let near = NEAR_ZERO * (most - least);
+        !sum.is_nan() && if begin > 0.0 { least > near } else { rise > near }
+    }
+
+    /// The part of the step after which the function comes to zero, about.
+    pub(super) fn zero(&self) -> f64 {
+        let distances = self.distances();
+        let before = (0..PARTS).rfind(|k| distances[*k] < 0.0).unwrap_or(0);
+        let [from, to] = [distances[before], distances[before + 1]];
+        (before as f64 + from / (from - to)) / PARTS as f64
     }
 }
 
@@ -46,9 +70,7 @@ mod tests {
     use super::*;
 
     fn is_told(values: [f64; 5]) -> bool {
-        let [begin, within @ .., end] = values;
-        let mut told = Told::between(begin, end);
-        within.into_iter().all(|value| told.goes(value)) && told.ends_plainly(end)
+        Told(values).is_plain()
     }
 
     #[test]
