@@ -232,6 +232,7 @@ use proc_macro::TokenStream;
 /// | `lanes` | the equations over vectors | `Ensemble` |
 /// | `metric` | `metric(&phi)` and `inverse_metric(&phi)`, over `(x_dot, phi_dot)` with `phi_dot` row by row | under a constraint that on the velocities left free |
 /// | `acceleration` | `acceleration(&point)`, of the centre of mass | `acceleration(t, &point)` where it depends on the time |
+/// | `latex` | the formulas of the description in LaTeX | every model has them where `affine_runtime` has the feature `report` |
 /// | `balance` | `balance(t, &point)`, `centre_balance(t, &point)`: `K = phi Pi`, `phi J phi_dot^T` of `dalembert`, and both sides of its balance in space and body, (3.6), (3.8), (3.9) | energies with a term in `phi_dot`, sums of frames |
 ///
 /// The pieces of `splitting`:
@@ -277,5 +278,9 @@ use proc_macro::TokenStream;
 /// | a constraint | `casimir3` | the velocity is quadratic in the momentum: the momenta whose velocities the group leaves free form no linear space |
 #[proc_macro_attribute]
 pub fn affine_model(args: TokenStream, item: TokenStream) -> TokenStream {
-    affine_codegen::expand(args.into(), item.into()).into()
+    let expand = match cfg!(feature = "latex") {
+        true => affine_codegen::expand_for_reports,
+        false => affine_codegen::expand,
+    };
+    expand(args.into(), item.into()).into()
 }

@@ -115,6 +115,8 @@ pub enum Capability {
     Acceleration,
     /// The balance laws of the kinematical spin.
     Balance,
+    /// Formulas in LaTeX.
+    Latex,
 }
 
 named!(Capability {
@@ -128,6 +130,7 @@ named!(Capability {
     Metric: "metric",
     Acceleration: "acceleration",
     Balance: "balance",
+    Latex: "latex",
 });
 
 impl Named for TermKind {
