@@ -147,7 +147,7 @@ fn mixed_sums() {
     let counted = counts::<2, FlatAffine>(&FlatAffine, &sample::<2, FlatAffine>(&FlatAffine));
     assert_eq!(counted, [(75, 41), (75, 41)]);
     let counted = counts::<3, BodySpace>(&BodySpace, &sample::<3, BodySpace>(&BodySpace));
-    assert_eq!(counted, [(371, 281), (371, 281)]);
+    assert_eq!(counted, [(346, 262), (346, 262)]);
     let counted = counts::<3, FlatBody>(&FlatBody, &sample::<3, FlatBody>(&FlatBody));
     assert_eq!(counted, [(142, 93), (142, 93)]);
     // Of the three parts of Pi the longest, that of the tensor, is what is left.

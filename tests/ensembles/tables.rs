@@ -193,7 +193,10 @@ fn runs_stops_and_descriptions_are_written() {
     assert_eq!(value["times"].as_array().unwrap().len(), 3);
     assert_eq!(value["points"][2][0].as_f64().unwrap(), run.end().1.phi()[(0, 0)]);
     assert_eq!(value["description"]["name"], "Unprotected");
-    assert_eq!(value["description"]["hamiltonian"]["latex"], Unprotected::DESCRIPTION.hamiltonian.latex);
+    assert_eq!(
+        value["description"]["hamiltonian"]["latex"].as_str(),
+        Unprotected::DESCRIPTION.hamiltonian.latex
+    );
     let drifts = serde_json::to_value(run.conservation()).unwrap();
     assert_eq!(drifts["drifts"][0]["quantity"], "Energy");
     let halt = Simulation::new(&Unprotected, start).until(0.5).max_steps(1).run().unwrap_err();

@@ -101,7 +101,7 @@ pub const IN_FULL: &[Specimen] = specimens! {
     fields_splitting_squares_2: "dim = 2, kinetic(body_inertia = j), potential = tr(G)/2 - ln(det), emit(splitting)",
         "/// A body whose principal axes are not known.
         pub struct Body { j: affine_runtime::frames::Matrix<2> }";
-    unitary_pieces_2: "dim = 2, group = unitary, kinetic(casimir2 = 0.9, casimir1_squared = 0.3), emit(splitting)",
+    unitary_pieces_2: "dim = 2, group = unitary, kinetic(casimir2 = 0.9, casimir1_squared = 0.3), emit(splitting, latex)",
         "/// A lattice of two angles.
         pub struct Lattice;";
     fields_metrics_inertia_2: "dim = 2, metrics(body = eta), kinetic(dalembert = j, space_translation = 1), \

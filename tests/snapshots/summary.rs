@@ -71,8 +71,7 @@ fn undocumented(description: &ExprStruct) -> String {
     let mut text = String::new();
     for equation in elements(field("reduced_equations")) {
         // Where they are Hamilton's equations, they are shared with these.
-        let start = equation.split_once("text : \"").map_or(equation.as_str(), |(_, text)| text);
-        let text_alone = start.split_once('"').map_or(start, |(text, _)| text);
+        let text_alone = equation.split('"').nth(1).unwrap_or(&equation);
         writeln!(text, "- {text_alone}").expect("a string can be written");
     }
     let facts = ["full", "reduced", "domain", "angles"].map(|name| {

@@ -46,7 +46,7 @@ fn module(number: usize, pair: &Pair, accepted: &[Capability], keys: &str, drawn
     for capability in accepted {
         asked += &match capability {
             // What every model has.
-            Capability::Tangent => String::new(),
+            Capability::Tangent | Capability::Latex => String::new(),
             Capability::Metric => format!(".metric(metric!({n} model))"),
             Capability::Acceleration => format!(".acceleration(acceleration!({n} model))"),
             Capability::Balance if pair.centre.keys.is_empty() => format!(".balance(balance!({n} model))"),

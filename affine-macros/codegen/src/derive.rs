@@ -82,6 +82,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         forces: &forces,
         metrics: form.metrics.as_ref(),
         rebased: &form.rebased,
+        latex: asked.latex,
     };
     let notation = Notation::new(arena, &described);
     let formulas = body.formulas(arena, &notation, &chart, &reduction, closed_form)?;

@@ -58,35 +58,12 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
     let rt = &names.rt;
     let prepared_type = prepare::prepared_type(&context);
     let prepare = prepare::method(&context);
-    if spec.group.is_some() {
-        let item = spec.item.documented(&[]);
-        let lattice = two_polar::lattice_of_circle(&context);
-        return quote! {
-            #item
-            #prepared_type
-            const _: () = {
-                use #runtime::__private as #rt;
-                #prepare
-                #lattice
-            };
-        };
-    }
-    let item = spec.item.documented(&description::docs(&context));
-    let constants = reduction::constants_type(&context);
-    let function = context.function();
-    let (parametric, implementation) = model_impl(&context);
-    let constructors = constructors::inherent(&context);
-    let unprepared = refused::unprepared(&context);
-    let two_polar = two_polar::implementations(&context);
-    let (bases, _) = metrics::bases(&context);
-    let splitting = splitting::splitting_impl(&context);
-    let second_order = second_order::implementation(&context);
-    let tangent = tangent::implementation(&context);
-    let taylor = taylor::taylor_impl(&context);
-    let lanes = lanes::implementation(&context);
-    let packed = packed::implementation(&context);
-    let unconstrained = unconstrained::implementation(&context);
-    let lints = metrics::lints(&context);
+    // Nothing but the lattice is emitted of a model on U(n), which has no phase points.
+    let (docs, lints, items) = match spec.group {
+        Some(_) => (Vec::new(), None, two_polar::lattice_of_circle(&context)),
+        None => (description::docs(&context), Some(metrics::lints(&context)), items(&context)),
+    };
+    let item = spec.item.documented(&docs);
     quote! {
         #item
         #prepared_type
@@ -94,23 +71,32 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
         const _: () = {
             use #runtime::__private as #rt;
             #prepare
-            #unprepared
-            #bases
-            #constants
-            #function
-            #implementation
-            #parametric
-            #constructors
-            #splitting
-            #second_order
-            #two_polar
-            #taylor
-            #tangent
-            #lanes
-            #packed
-            #unconstrained
+            #items
         };
     }
+}
+
+/// What belongs to a model of phase points, in the order in which it is read.
+fn items(context: &Context) -> TokenStream {
+    let (parametric, implementation) = model_impl(context);
+    let items = [
+        refused::unprepared(context),
+        metrics::bases(context).0,
+        reduction::constants_type(context),
+        context.function().unwrap_or_default(),
+        implementation,
+        parametric,
+        constructors::inherent(context),
+        splitting::splitting_impl(context),
+        second_order::implementation(context),
+        two_polar::implementations(context),
+        taylor::taylor_impl(context),
+        tangent::implementation(context),
+        lanes::implementation(context),
+        packed::implementation(context),
+        unconstrained::implementation(context),
+    ];
+    items.into_iter().collect()
 }
 
 /// The implementations of the traits of models: of those with coefficients as an argument, and of all.

@@ -34,11 +34,22 @@ use proc_macro2::{Span, TokenStream};
 
 use algebra::fault;
 use diagnostics::{FaultMistake, Rejected, gate};
+use spec::{Capability, Spanned};
 
 /// The expansion of `#[affine_model(args)] item`, of a refused model its reasons and a stand-in.
 #[must_use]
 pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
-    match model(args.clone(), item.clone()) {
+    expanded(args, item, &[])
+}
+
+/// The same where reports show the formulas of every model: in LaTeX, as `emit(latex)` asks for.
+#[must_use]
+pub fn expand_for_reports(args: TokenStream, item: TokenStream) -> TokenStream {
+    expanded(args, item, &[Capability::Latex])
+}
+
+fn expanded(args: TokenStream, item: TokenStream, besides: &[Capability]) -> TokenStream {
+    match without_fault(|| road(args.clone(), item.clone(), besides)) {
         Ok(tokens) => tokens,
         Err(rejected) => stub::stub(args, &item, &rejected),
     }
@@ -49,7 +60,7 @@ pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
 /// # Errors
 /// [`Rejected`] with the reasons, where the model is refused.
 pub fn model(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
-    without_fault(|| road(args, item))
+    without_fault(|| road(args, item, &[]))
 }
 
 /// What an expansion gives, unless what cannot happen happened on its way.
@@ -71,8 +82,10 @@ pub fn without_fault<T>(expansion: impl FnOnce() -> Result<T, Rejected>) -> Resu
     }
 }
 
-fn road(args: TokenStream, item: TokenStream) -> Result<TokenStream, Rejected> {
-    let spec = gate(|found| spec::parse(args, item, found))?;
+/// With what is emitted besides what the specification asks for.
+fn road(args: TokenStream, item: TokenStream, besides: &[Capability]) -> Result<TokenStream, Rejected> {
+    let mut spec = gate(|found| spec::parse(args, item, found))?;
+    spec.emit.extend(besides.iter().map(|value| Spanned { value: *value, span: Span::call_site().into() }));
     gate(|found| check::as_written(&spec, found))?;
     let energy = gate(|found| check::energy(&spec, found))?;
     // Past the second gate no derivation can fail: a form that passed has an invertible Legendre transformation.

@@ -41,9 +41,7 @@ pub use symbol::{POTENTIAL_SYMBOLS, SYMBOLS, Symbol};
 /// [`Reported`] if the notation has mistakes; all of them are in the bag.
 pub fn parse(args: TokenStream, item: TokenStream, found: &mut Diagnostics) -> Result<Spec, Reported> {
     let item = item::parse(item, found);
-    let arguments = grammar::parse(args, found);
-    let (item, arguments) = (item?, arguments?);
-    Ok(arguments.of(item).with_entries())
+    Ok(grammar::parse(args, item, found)?.with_entries())
 }
 
 /// Reads one expression, as a coefficient of the kinetic energy is read.

@@ -106,7 +106,7 @@ pub enum Bound {
     NotZero,
 }
 
-/// A formula as text and as LaTeX.
+/// A formula as text, and as LaTeX where a model or a report asks for it.
 ///
 /// Fields have the names that they have in the struct. One that is written like a symbol of the mechanics stands as
 /// `self.name`, in LaTeX in typewriter.
@@ -116,9 +116,17 @@ pub struct Formula {
     /// Plain text.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
     pub text: Word,
-    /// LaTeX, without delimiters.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
-    pub latex: Word,
+    /// LaTeX, without delimiters; of models with `emit(latex)`, and of all where `affine_runtime` has the feature `report`.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::optional_word"))]
+    pub latex: Option<Word>,
+}
+
+impl Formula {
+    /// One without LaTeX.
+    #[must_use]
+    pub const fn plain(text: Word) -> Self {
+        Self { text, latex: None }
+    }
 }
 
 /// Numbers of arithmetic operations of straight-line code; a multiply-add counts as both.

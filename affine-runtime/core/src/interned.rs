@@ -4,7 +4,7 @@
 #[cfg(feature = "serde")]
 pub use reading::{constant, number, word};
 #[cfg(feature = "serde")]
-pub(crate) use reading::{list, words};
+pub(crate) use reading::{list, optional_word, words};
 
 #[cfg(feature = "serde")]
 mod reading {
@@ -35,6 +35,17 @@ mod reading {
     /// Those of the deserializer.
     pub fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static str, D::Error> {
         String::deserialize(deserializer).map(|text| kept(text.into_boxed_str()))
+    }
+
+    /// Reads a text that may be missing.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub(crate) fn optional_word<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<&'static str>, D::Error> {
+        let text: Option<String> = Option::deserialize(deserializer)?;
+        Ok(text.map(|text| kept(text.into_boxed_str())))
     }
 
     /// Reads a list of texts.

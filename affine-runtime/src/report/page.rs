@@ -206,16 +206,18 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 }
 
-/// MathML; the plain text where there is none of it.
+/// MathML; the plain text where there is none of it, as of a model that the attribute has not made.
 fn formula(formula: &Formula) -> String {
+    let text = || format!("<pre>{}</pre>\n", escaped(formula.text));
+    let Some(latex) = formula.latex else { return text() };
     let (storage, mut mathml) = (Storage::new(), String::new());
     let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
-    let parsed: core::result::Result<Vec<_>, _> = Parser::new(formula.latex, &storage).collect();
+    let parsed: core::result::Result<Vec<_>, _> = Parser::new(latex, &storage).collect();
     let written =
         parsed.map(|events| push_mathml(&mut mathml, events.into_iter().map(Ok::<_, fmt::Error>), config));
     match written {
         Ok(Ok(())) => format!("<div class=\"wide\">{mathml}</div>\n"),
-        _ => format!("<pre>{}</pre>\n", escaped(formula.text)),
+        _ => text(),
     }
 }
 

@@ -49,7 +49,7 @@ fn isotropic_energy<T: Real>(oh: &Matrix<3, T>, [i, a, b]: [f64; 3]) -> T {
 
 /// A description with a name; each fixture fills in what simulations read.
 const fn description(name: &'static str) -> Description {
-    const NO_FORMULA: Formula = Formula { text: "", latex: "" };
+    const NO_FORMULA: Formula = Formula::plain("");
     const NOTHING: Operations = Operations { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
     Description {
         name,

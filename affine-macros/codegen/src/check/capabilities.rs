@@ -39,5 +39,6 @@ pub(super) fn asked_for(spec: &Spec) -> Asked {
         metric: asked(Capability::Metric),
         acceleration: asked(Capability::Acceleration),
         balance: asked(Capability::Balance),
+        latex: asked(Capability::Latex),
     }
 }

@@ -41,8 +41,9 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     for requirement in &spec.require {
         found.report(requirement.span, CapabilityMistake::UnitaryTerm { part: requirement.value.name() });
     }
-    // Besides the lattice itself, its pieces.
-    for capability in spec.emit.iter().filter(|capability| capability.value != Capability::Splitting) {
+    // Besides the lattice itself, its pieces and its formulas.
+    let goes = |capability: Capability| matches!(capability, Capability::Splitting | Capability::Latex);
+    for capability in spec.emit.iter().filter(|capability| !goes(capability.value)) {
         found.report(capability.span, CapabilityMistake::UnitaryTerm { part: capability.value.name() });
     }
 }

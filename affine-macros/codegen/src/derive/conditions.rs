@@ -14,7 +14,6 @@ use crate::optimise::{Batch, straight_line};
 use crate::symbol::Quantity;
 
 use super::model::Regularity;
-use super::prepared::{summands, unbound};
 use super::well_posed::{Condition, Factor, Relation};
 
 /// What `prepare()` has to check once the fields have values: the eigenvalues of a constant mass matrix, masses, the inertia
@@ -57,14 +56,10 @@ pub(super) fn conditions(
             minors.map(|minor| (Factor::Eigenvalue("a leading minor of J"), "a row of phi_dot", true, minor)),
         );
     }
-    list.into_iter()
-        .filter(|(.., value)| value.as_constant().is_none())
-        .map(|(factor, directions, positive, value)| {
-            let sizes = summands(&value);
-            let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { factor, directions, relation: Relation::MomentumOfVelocity, positive, program }
-        })
-        .collect()
+    let condition = |(factor, directions, positive, value)| {
+        Condition::of(arena, (factor, directions), (Relation::MomentumOfVelocity, positive), &value)
+    };
+    list.into_iter().filter_map(condition).collect()
 }
 
 /// The leading minors of `J`, all positive iff `J` is (Sylvester); `I` for `J = I 1`.

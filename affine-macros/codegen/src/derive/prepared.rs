@@ -45,20 +45,32 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
     }
     let mut listed: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
     for (name, directions, value) in known {
-        let again = listed.contains(&(name, directions, value.clone()));
-        if value.as_constant().is_none() && !again {
-            listed.push((name, directions, value.clone()));
-            let program = unbound(arena, std::iter::once(value.clone()).chain(summands(&value)));
-            let relation = Relation::MomentumOfVelocity;
-            let factor = Factor::Eigenvalue(name);
-            damping.conditions.push(Condition { factor, directions, relation, positive: false, program });
+        if !listed.contains(&(name, directions, value.clone())) {
+            let (factor, asked) = (Factor::Eigenvalue(name), (Relation::MomentumOfVelocity, false));
+            damping.conditions.extend(Condition::of(arena, (factor, directions), asked, &value));
+            listed.push((name, directions, value));
         }
     }
     damping
 }
 
+impl Condition {
+    /// That on a value; none on a number, which the checks have seen.
+    pub(super) fn of(
+        arena: &mut Arena,
+        (factor, directions): (Factor, &'static str),
+        (relation, positive): (Relation, bool),
+        value: &Polynomial,
+    ) -> Option<Self> {
+        value.as_constant().is_none().then(|| {
+            let program = unbound(arena, std::iter::once(value.clone()).chain(summands(value)));
+            Self { factor, directions, relation, positive, program }
+        })
+    }
+}
+
 /// The terms of a sum, each a polynomial: their sizes say how much of it rounding can make.
-pub(super) fn summands(sum: &Polynomial) -> Vec<Polynomial> {
+fn summands(sum: &Polynomial) -> Vec<Polynomial> {
     sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 

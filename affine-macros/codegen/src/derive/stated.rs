@@ -5,7 +5,6 @@ use crate::mechanics::direction::Direction;
 use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::term::Frame;
 
-use super::prepared::{summands, unbound};
 use super::well_posed::{Condition, Factor, Relation};
 
 /// Each eigenvalue of the momentum form, and the inverse mass, is different from zero; nothing is asked of a cubic
@@ -40,13 +39,7 @@ pub(super) fn conditions(arena: &mut Arena, stated: &Stated, positive: bool) -> 
     if let Some((_, _, inverse_mass)) = &stated.translation {
         values.push((Factor::Mass("1/m"), "the momentum of the centre of mass", inverse_mass.clone()));
     }
-    values
-        .into_iter()
-        .filter(|(_, _, value)| value.as_constant().is_none())
-        .map(|(factor, directions, value)| {
-            let sizes = summands(&value);
-            let program = unbound(arena, std::iter::once(value).chain(sizes));
-            Condition { factor, directions, relation: Relation::VelocityOfMomentum, positive, program }
-        })
-        .collect()
+    let asked = (Relation::VelocityOfMomentum, positive);
+    let condition = |(factor, directions, value)| Condition::of(arena, (factor, directions), asked, &value);
+    values.into_iter().filter_map(condition).collect()
 }

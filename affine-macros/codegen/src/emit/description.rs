@@ -165,9 +165,12 @@ fn of_both<D: PartialEq + ?Sized>(
 }
 
 /// A formula as an expression.
-pub(super) fn formula(context: &Context, text: &str, latex: &str) -> TokenStream {
+pub(super) fn formula(context: &Context, text: &str, latex: Option<&str>) -> TokenStream {
     let rt = &context.names.rt;
-    quote!(#rt::Formula { text: #text, latex: #latex })
+    match latex {
+        Some(latex) => quote!(#rt::Formula { text: #text, latex: ::core::option::Option::Some(#latex) }),
+        None => quote!(#rt::Formula::plain(#text)),
+    }
 }
 
 /// The description as an expression.
@@ -175,8 +178,9 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let (model, rt) = (context.model, &context.names.rt);
     let name = context.names.model.to_string();
     let formulas = &model.description.formulas;
-    let kinetic_energy = formula(context, &formulas.kinetic_energy.text, &formulas.kinetic_energy.latex);
-    let hamiltonian = formula(context, &formulas.hamiltonian.text, &formulas.hamiltonian.latex);
+    let kinetic_energy =
+        formula(context, &formulas.kinetic_energy.text, formulas.kinetic_energy.latex.as_deref());
+    let hamiltonian = formula(context, &formulas.hamiltonian.text, formulas.hamiltonian.latex.as_deref());
     let left_out = formulas.left_out.iter().map(|left_out| {
         let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
         quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
@@ -195,7 +199,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             [("equations", &formulas.equations), ("reduced_equations", &formulas.reduced)],
             &quote!(&[#rt::Formula]),
             |list| {
-                let list = list.iter().map(|f| formula(context, &f.text, &f.latex));
+                let list = list.iter().map(|f| formula(context, &f.text, f.latex.as_deref()));
                 quote!(&[#(#list),*])
             },
         ),

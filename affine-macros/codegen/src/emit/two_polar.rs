@@ -178,8 +178,8 @@ fn docs(form: &TwoPolar) -> Vec<String> {
 fn description(context: &Context, form: &TwoPolar) -> TokenStream {
     let rt = &context.names.rt;
     let (hamiltonian, equations) = &form.formulas;
-    let hamiltonian = description::formula(context, &hamiltonian.text, &hamiltonian.latex);
-    let equations = equations.iter().map(|f| description::formula(context, &f.text, &f.latex));
+    let hamiltonian = description::formula(context, &hamiltonian.text, hamiltonian.latex.as_deref());
+    let equations = equations.iter().map(|f| description::formula(context, &f.text, f.latex.as_deref()));
     let variables = match form.places {
         Places::LogStretches => format_ident!("LogStretches"),
         Places::Stretches => format_ident!("Stretches"),

@@ -21,4 +21,6 @@ pub struct Asked {
     pub acceleration: bool,
     /// The balance laws of a d'Alembert model.
     pub balance: bool,
+    /// Formulas in LaTeX.
+    pub latex: bool,
 }

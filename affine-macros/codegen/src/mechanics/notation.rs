@@ -50,6 +50,8 @@ pub struct Described<'a> {
     pub metrics: Option<&'a Metrics>,
     /// The matrices that are carried to orthonormal bases.
     pub rebased: &'a [Rebased],
+    /// Are they wanted in LaTeX?
+    pub latex: bool,
 }
 
 impl<'a> Notation<'a> {
@@ -59,6 +61,7 @@ impl<'a> Notation<'a> {
             customs: &described.forces.customs,
             metrics: described.metrics,
             rebased: described.rebased,
+            in_latex: described.latex,
             matrices: Vec::new(),
             inverses: FxHashMap::default(),
             blocks: Vec::new(),

@@ -6,7 +6,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 use super::entries::{Piece, pieces, region, shortened, unwrapped};
 use super::expression::Expression;
 use super::expression_parser::{self, Language};
-use super::names::Named;
+use super::names::{Named, named};
 use super::spanned::Spanned;
 use crate::diagnostics::{Diagnostics, ForceMistake, PotentialMistake, Region};
 
@@ -63,40 +63,17 @@ pub enum Mark {
     Position,
 }
 
-impl Named for Mark {
-    const ALL: &'static [Self] = &[Self::Gyroscopic, Self::Position];
+named!(Mark { Gyroscopic: "gyroscopic", Position: "position" });
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Gyroscopic => "gyroscopic",
-            Self::Position => "position",
-        }
-    }
-}
-
-impl Named for Role {
-    const ALL: &'static [Self] = &[
-        Self::Spatial,
-        Self::Comoving,
-        Self::Translation,
-        Self::Isotropic,
-        Self::Green,
-        Self::Finger,
-        Self::General,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Spatial => "spatial",
-            Self::Comoving => "comoving",
-            Self::Translation => "translation",
-            Self::Isotropic => "isotropic",
-            Self::Green => "green",
-            Self::Finger => "finger",
-            Self::General => "general",
-        }
-    }
-}
+named!(Role {
+    Spatial: "spatial",
+    Comoving: "comoving",
+    Translation: "translation",
+    Isotropic: "isotropic",
+    Green: "green",
+    Finger: "finger",
+    General: "general",
+});
 
 impl Role {
     /// A force rather than a potential?

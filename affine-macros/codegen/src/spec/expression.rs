@@ -4,7 +4,7 @@ use std::fmt;
 
 use proc_macro2::Ident;
 
-use super::names::Named;
+use super::names::{Named, named};
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::Region;
 
@@ -130,17 +130,7 @@ pub enum MatrixName {
     Placement,
 }
 
-impl Named for MatrixName {
-    const ALL: &'static [Self] = &[Self::Green, Self::Finger, Self::Placement];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Green => "G",
-            Self::Finger => "Ct",
-            Self::Placement => "phi",
-        }
-    }
-}
+named!(MatrixName { Green: "G", Finger: "Ct", Placement: "phi" });
 
 /// The binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,12 +9,12 @@ use super::expression_parser::{self, Language};
 use super::item::Item;
 use super::keys::{Key, Side};
 use super::momentum_side::{self, MomentumKind};
-use super::names::{Capability, Claim, Named, PlacementGroup, Requirement, nearest};
+use super::names::{Claim, Named, nearest};
 use super::spanned::Spanned;
 use super::statement::{Metric, Potential, Spec, Symmetry, Term};
 use super::value;
 use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
-use crate::symbol::{Constraint, TermKind};
+use crate::symbol::TermKind;
 
 /// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
 const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
@@ -23,79 +23,18 @@ const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir
 const VELOCITY_TERMS: [&str; 6] =
     ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"];
 
-/// A [`Spec`] without its item.
-pub(super) struct Arguments {
-    dim: Spanned<usize>,
-    symmetry: Option<Symmetry>,
-    energy: Energy,
-    metrics: [Option<Metric>; 2],
-    constraint: Option<Spanned<Constraint>>,
-    group: Option<Spanned<PlacementGroup>>,
-    potential: Option<Potential>,
-    customs: Vec<Custom>,
-    self_gravity: Vec<SelfGravity>,
-    dissipation: Vec<Term>,
-    require: Vec<Spanned<Requirement>>,
-    emit: Vec<Spanned<Capability>>,
-    runtime: Option<syn::Path>,
-}
-
-/// The kinetic energy, on the side where it is stated.
-enum Energy {
-    Kinetic(Spanned<Vec<Term>>),
-    Hamiltonian(Spanned<Vec<Term<MomentumKind>>>),
-}
-
-impl Arguments {
-    pub(super) fn of(self, item: Item) -> Spec {
-        let Self {
-            dim,
-            symmetry,
-            energy,
-            metrics,
-            constraint,
-            group,
-            potential,
-            customs,
-            self_gravity,
-            dissipation,
-            require,
-            emit,
-            runtime,
-        } = self;
-        let (kinetic, hamiltonian, kinetic_key) = match energy {
-            Energy::Kinetic(terms) => (terms.value, None, terms.span),
-            Energy::Hamiltonian(terms) => (Vec::new(), Some(terms.value), terms.span),
-        };
-        Spec {
-            item,
-            dim,
-            symmetry,
-            kinetic,
-            hamiltonian,
-            kinetic_key,
-            metrics,
-            constraint,
-            group,
-            potential,
-            customs,
-            self_gravity,
-            dissipation,
-            require,
-            emit,
-            runtime,
-        }
-    }
-}
-
-pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Arguments, Reported> {
+/// The specification of an item.
+pub(super) fn parse(
+    args: TokenStream,
+    item: Result<Item, Reported>,
+    found: &mut Diagnostics,
+) -> Result<Spec, Reported> {
     let here = Span::call_site();
     let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &[], found);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
-    let mut hamiltonian = None;
-    let mut metric = [None, None];
+    let (mut hamiltonian, mut potential, mut metrics) = (None, None, [None, None]);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
-    let (mut constraint, mut energy, mut group) = (None, None, None);
+    let (mut constraint, mut group) = (None, None);
     let (mut dissipation, mut customs, mut self_gravity) = (Vec::new(), Vec::new(), Vec::new());
     for entry in entries {
         let at = entry.at;
@@ -108,13 +47,14 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
             Key::Hamiltonian => {
                 hamiltonian = Some((at, terms(HAMILTONIAN, expect_list(entry, found), at, found)));
             }
-            Key::Metrics => metric = metrics(expect_list(entry, found), found),
+            Key::Metrics => metrics = both_metrics(expect_list(entry, found), found),
             Key::Constraint => {
                 let piece = expect_value(entry, found).ok();
                 constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
             }
             Key::Potential => {
-                energy = potential(expect_value(entry, found), at, (&mut customs, &mut self_gravity), found)
+                let parts = (&mut customs, &mut self_gravity);
+                potential = energy(expect_value(entry, found), at, parts, found);
             }
             Key::Forces => forces(expect_value(entry, found), &mut customs, found),
             Key::Dissipation => {
@@ -134,18 +74,22 @@ pub(super) fn parse(args: TokenStream, found: &mut Diagnostics) -> Result<Argume
     let dim = dim.unwrap_or_else(|| Err(missing(Key::Dim, "the dimension of space and body", here, found)));
     let stated = match (kinetic, hamiltonian) {
         (None, None) => Err(missing(Key::Kinetic, "the kinetic energy", here, found)),
-        (Some((_, terms)), None) => terms.map(Energy::Kinetic),
-        (None, Some((_, terms))) => terms.map(Energy::Hamiltonian),
+        (Some((_, terms)), None) => terms.map(|terms| (terms.value, None, terms.span)),
+        (None, Some((_, terms))) => terms.map(|terms| (Vec::new(), Some(terms.value), terms.span)),
         (Some(_), Some((at, _))) => Err(found.report(at, NotationMistake::TwoStatements)),
     };
-    Ok(Arguments {
-        dim: dim?,
+    let (item, dim, (kinetic, hamiltonian, kinetic_key)) = (item?, dim?, stated?);
+    Ok(Spec {
+        item,
+        dim,
         symmetry,
-        energy: stated?,
-        metrics: metric,
+        kinetic,
+        hamiltonian,
+        kinetic_key,
+        metrics,
         constraint,
         group,
-        potential: energy,
+        potential,
         customs,
         self_gravity,
         dissipation,
@@ -273,7 +217,7 @@ fn terms<K: Named + PartialEq>(
 }
 
 /// `metrics(...)`; an omitted side is the identity.
-fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Metric>; 2] {
+fn both_metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Metric>; 2] {
     let mut metrics = [None, None];
     let Ok(list) = list else { return metrics };
     for entry in entries::<Side>("metrics", list.stream(), list.span_close(), &[], found) {
@@ -300,7 +244,7 @@ fn metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Me
 }
 
 /// `potential = ...`.
-fn potential(
+fn energy(
     piece: Result<Piece, Reported>,
     key: Span,
     (customs, self_gravity): (&mut Vec<Custom>, &mut Vec<SelfGravity>),

@@ -1,6 +1,6 @@
 //! The words that arguments begin with, and how each may look.
 
-use super::names::Named;
+use super::names::{Named, named};
 
 /// The keys of `affine_model(...)`.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,41 +20,21 @@ pub(super) enum Key {
     Crate,
 }
 
-impl Named for Key {
-    const ALL: &'static [Self] = &[
-        Self::Dim,
-        Self::Symmetry,
-        Self::Kinetic,
-        Self::Hamiltonian,
-        Self::Metrics,
-        Self::Constraint,
-        Self::Group,
-        Self::Potential,
-        Self::Dissipation,
-        Self::Forces,
-        Self::Require,
-        Self::Emit,
-        Self::Crate,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Dim => "dim",
-            Self::Symmetry => "symmetry",
-            Self::Kinetic => "kinetic",
-            Self::Hamiltonian => "hamiltonian",
-            Self::Metrics => "metrics",
-            Self::Constraint => "constraint",
-            Self::Group => "group",
-            Self::Potential => "potential",
-            Self::Dissipation => "dissipation",
-            Self::Forces => "forces",
-            Self::Require => "require",
-            Self::Emit => "emit",
-            Self::Crate => "crate",
-        }
-    }
-}
+named!(Key {
+    Dim: "dim",
+    Symmetry: "symmetry",
+    Kinetic: "kinetic",
+    Hamiltonian: "hamiltonian",
+    Metrics: "metrics",
+    Constraint: "constraint",
+    Group: "group",
+    Potential: "potential",
+    Dissipation: "dissipation",
+    Forces: "forces",
+    Require: "require",
+    Emit: "emit",
+    Crate: "crate",
+});
 
 impl Key {
     /// How an entry with it may look.
@@ -86,13 +66,4 @@ pub(super) enum Side {
     Body,
 }
 
-impl Named for Side {
-    const ALL: &'static [Self] = &[Self::Space, Self::Body];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Space => "space",
-            Self::Body => "body",
-        }
-    }
-}
+named!(Side { Space: "space", Body: "body" });

@@ -1,6 +1,6 @@
 //! The names of `hamiltonian(...)`, the momentum-side statement.
 
-use super::Named;
+use super::names::{Named, named};
 
 /// The kinds of terms of a Hamiltonian; `X` is `Sigma = phi Pi` or `Sigma_hat = Pi phi`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,29 +21,15 @@ pub enum MomentumKind {
     Casimir3,
 }
 
-impl Named for MomentumKind {
-    const ALL: &'static [Self] = &[
-        Self::Casimir2,
-        Self::Casimir1Squared,
-        Self::VorticitySquared,
-        Self::SpinSquared,
-        Self::BodyTranslation,
-        Self::SpaceTranslation,
-        Self::Casimir3,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Casimir2 => "casimir2",
-            Self::Casimir1Squared => "casimir1_squared",
-            Self::VorticitySquared => "vorticity_squared",
-            Self::SpinSquared => "spin_squared",
-            Self::BodyTranslation => "body_translation",
-            Self::SpaceTranslation => "space_translation",
-            Self::Casimir3 => "casimir3",
-        }
-    }
-}
+named!(MomentumKind {
+    Casimir2: "casimir2",
+    Casimir1Squared: "casimir1_squared",
+    VorticitySquared: "vorticity_squared",
+    SpinSquared: "spin_squared",
+    BodyTranslation: "body_translation",
+    SpaceTranslation: "space_translation",
+    Casimir3: "casimir3",
+});
 
 impl MomentumKind {
     /// A kinetic energy of the centre of mass, in p?

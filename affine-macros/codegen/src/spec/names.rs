@@ -21,6 +21,22 @@ pub trait Named: Copy + 'static {
     }
 }
 
+/// The names of the members of a set, in the order in which messages list them.
+macro_rules! named {
+    ($set:ty { $($member:ident: $name:literal),* $(,)? }) => {
+        impl Named for $set {
+            const ALL: &'static [Self] = &[$(Self::$member),*];
+
+            fn name(self) -> &'static str {
+                match self {
+                    $(Self::$member => $name,)*
+                }
+            }
+        }
+    };
+}
+pub(super) use named;
+
 /// A group claimed to leave the kinetic energy unchanged, on one side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
@@ -32,17 +48,7 @@ pub enum Claim {
     None,
 }
 
-impl Named for Claim {
-    const ALL: &'static [Self] = &[Self::Affine, Self::Metric, Self::None];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Affine => "affine",
-            Self::Metric => "metric",
-            Self::None => "none",
-        }
-    }
-}
+named!(Claim { Affine: "affine", Metric: "metric", None: "none" });
 
 /// A group in place of GL(n, R) as the space of placements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,27 +57,9 @@ pub enum PlacementGroup {
     Unitary,
 }
 
-impl Named for PlacementGroup {
-    const ALL: &'static [Self] = &[Self::Unitary];
+named!(PlacementGroup { Unitary: "unitary" });
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Unitary => "unitary",
-        }
-    }
-}
-
-impl Named for Constraint {
-    const ALL: &'static [Self] = &[Self::Isochoric, Self::Rigid, Self::Conformal];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Isochoric => "isochoric",
-            Self::Rigid => "rigid",
-            Self::Conformal => "conformal",
-        }
-    }
-}
+named!(Constraint { Isochoric: "isochoric", Rigid: "rigid", Conformal: "conformal" });
 
 impl Constraint {
     /// The group by its equation, as the end of a sentence.
@@ -102,15 +90,7 @@ pub enum Requirement {
     PositiveDefinite,
 }
 
-impl Named for Requirement {
-    const ALL: &'static [Self] = &[Self::PositiveDefinite];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::PositiveDefinite => "positive_definite",
-        }
-    }
-}
+named!(Requirement { PositiveDefinite: "positive_definite" });
 
 /// Something that is emitted only when asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,37 +115,23 @@ pub enum Capability {
     Acceleration,
     /// The balance laws of the kinematical spin.
     Balance,
+    /// Formulas in LaTeX.
+    Latex,
 }
 
-impl Named for Capability {
-    const ALL: &'static [Self] = &[
-        Self::Splitting,
-        Self::Taylor,
-        Self::Nystrom,
-        Self::TwoPolar,
-        Self::Ratios,
-        Self::Tangent,
-        Self::Lanes,
-        Self::Metric,
-        Self::Acceleration,
-        Self::Balance,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Splitting => "splitting",
-            Self::Taylor => "taylor",
-            Self::Nystrom => "nystrom",
-            Self::TwoPolar => "two_polar",
-            Self::Ratios => "ratios",
-            Self::Tangent => "tangent",
-            Self::Lanes => "lanes",
-            Self::Metric => "metric",
-            Self::Acceleration => "acceleration",
-            Self::Balance => "balance",
-        }
-    }
-}
+named!(Capability {
+    Splitting: "splitting",
+    Taylor: "taylor",
+    Nystrom: "nystrom",
+    TwoPolar: "two_polar",
+    Ratios: "ratios",
+    Tangent: "tangent",
+    Lanes: "lanes",
+    Metric: "metric",
+    Acceleration: "acceleration",
+    Balance: "balance",
+    Latex: "latex",
+});
 
 impl Named for TermKind {
     const ALL: &'static [Self] = &TermKind::ALL;

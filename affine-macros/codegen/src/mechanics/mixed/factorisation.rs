@@ -2,7 +2,8 @@
 //!
 //! Straight-line code cannot choose pivots while it runs. The order is fixed here, so that no pivot vanishes at a
 //! generic placement, nor at `phi = 1` where that can be had; for a positive definite matrix the factorisation is
-//! stable in any order (Higham, Accuracy and Stability of Numerical Algorithms, section 10.1). That a pivot vanishes or
+//! stable in any order (Higham, Accuracy and Stability of Numerical Algorithms, section 10.1). Of several such pivots the one
+//! that mixes with the fewest others goes first, since all that it mixes with is mixed afterwards. That a pivot vanishes or
 //! changes its sign along a motion is for the run to notice.
 
 use crate::algebra::evaluate::Field;
@@ -222,13 +223,16 @@ fn ordered(
             let value = |k: usize, l: usize| point.evaluate(arena, &matrix[k][l]);
             complement(&value, &basis, &open)
         });
+        let places = || 0..open.len();
         let alive = |k: &usize| generic[*k][*k].is_nonzero();
         let both = |k: &usize| alive(k) && undeformed[*k][*k].is_nonzero();
-        let places = || 0..open.len();
+        let mixed_with = |k: &usize| generic[*k].iter().filter(|entry| entry.is_nonzero()).count();
         let pairs = || places().flat_map(|k| (k + 1..open.len()).map(move |l| (k, l)));
         let product = |form: &Square<Residue>| pairs().find(|(k, l)| form[*k][*l].is_nonzero());
         // Where only mixed products are left, x y is made a square by x -> x + y.
-        match (places().find(both), product(&undeformed), places().find(alive), product(&generic)) {
+        let [both, alive] =
+            [places().filter(both).min_by_key(mixed_with), places().filter(alive).min_by_key(mixed_with)];
+        match (both, product(&undeformed), alive, product(&generic)) {
             (Some(next), ..) | (None, None, Some(next), _) => basis.push(open.remove(next)),
             (None, Some((k, l)), ..) | (None, None, None, Some((k, l))) => {
                 let other = open[l].clone();

@@ -1,22 +1,23 @@
-//! A formula in both notations.
+//! A formula as text, and in LaTeX on demand.
 
 use super::names::Notation;
 use super::sentence::Sentence;
 use crate::algebra::Arena;
 
-/// A formula in both notations.
+/// A formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
     /// Plain text.
     pub text: String,
-    /// LaTeX.
-    pub latex: String,
+    /// LaTeX, where that is asked for.
+    pub latex: Option<String>,
 }
 
 impl Notation<'_> {
-    /// A sentence in both notations.
+    /// A sentence as it is asked for.
     #[must_use]
     pub fn printed(&self, arena: &Arena, sentence: &Sentence) -> Formula {
-        Formula { text: self.text(arena, sentence), latex: self.latex(arena, sentence) }
+        let latex = self.in_latex.then(|| self.latex(arena, sentence));
+        Formula { text: self.text(arena, sentence), latex }
     }
 }

@@ -17,6 +17,7 @@ pub struct Notation<'a> {
     pub(super) customs: &'a [Custom],
     pub(super) metrics: Option<&'a Metrics>,
     pub(super) rebased: &'a [Rebased],
+    pub(super) in_latex: bool,
     pub(super) matrices: Vec<Named>,
     /// Entries of inverses: of which matrix, with row and column from 1.
     pub(super) inverses: FxHashMap<Expr, (MatrixName, (usize, usize))>,
