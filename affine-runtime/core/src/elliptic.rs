@@ -2,9 +2,8 @@
 
 use crate::scalar::Real;
 
-/// Most halvings of the arithmetic-geometric mean: quadratic convergence needs fewer for any number format, half of them down to
-/// the smallest numbers that doubles can be. Duplications likewise halve the logarithms of proportions, and then bring arguments
-/// four times closer to each other.
+/// Most halvings of the arithmetic-geometric mean: quadratic convergence needs fewer for any number format. Duplications likewise
+/// halve the logarithms of proportions, and then bring arguments four times closer to each other.
 const LEVELS: usize = 40;
 
 /// `sn(u|m)`, `cn(u|m)`, `dn(u|m)`.
@@ -26,7 +25,7 @@ pub(crate) fn jacobi<T: Real>(u: T, m1: T) -> Jacobi<T> {
     let half = T::from_f64(0.5);
     let enough = T::EPSILON.sqrt();
     let (mut a, mut b) = (T::one(), m1);
-    let mut means = [(T::one(), T::one()); LEVELS / 2];
+    let mut means = [(T::one(), T::one()); LEVELS];
     let mut last = 0;
     let mut c = T::one();
     for (level, mean) in means.iter_mut().enumerate() {
@@ -42,14 +41,12 @@ pub(crate) fn jacobi<T: Real>(u: T, m1: T) -> Jacobi<T> {
         b = a * root;
         a = c;
     }
-    // Of half the angle, whose sign is that of the sine.
-    let tangent = (u * c * half).tan();
-    if tangent == T::zero() {
-        return Jacobi { sn: tangent, cn: T::one(), dn: T::one() };
+    let (sin, cos) = ((u * c).sin(), (u * c).cos());
+    if sin == T::zero() {
+        return Jacobi { sn: sin, cn: cos, dn: T::one() };
     }
     let mut dn = T::one();
-    // The cotangent of the angle.
-    let mut ratio = half * (T::one() / tangent - tangent);
+    let mut ratio = cos / sin;
     c *= ratio;
     for (mean, root) in means[..=last].iter().rev() {
         ratio *= c;
@@ -58,7 +55,7 @@ pub(crate) fn jacobi<T: Real>(u: T, m1: T) -> Jacobi<T> {
         ratio = c / *mean;
     }
     let size = T::one() / c.hypot(T::one());
-    let sn = if tangent < T::zero() { -size } else { size };
+    let sn = if sin < T::zero() { -size } else { size };
     Jacobi { sn, cn: c * sn, dn }
 }
 

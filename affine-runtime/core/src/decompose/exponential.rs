@@ -173,10 +173,8 @@ fn rotation_in_space<const N: usize, T: Real>(skew: &Matrix<N, T>) -> Matrix<N, 
         return Matrix::<N, T>::identity();
     }
     let axis = vector.map(|component| component / angle);
-    // Both by the tangent of half the angle, which is as good at half a turn as elsewhere.
-    let tangent = (angle * T::from_f64(0.5)).tan();
-    let sine = (tangent + tangent) / (T::one() + tangent * tangent);
-    let versine = tangent * sine;
+    let half = (angle * T::from_f64(0.5)).sin();
+    let (sine, versine) = (angle.sin(), T::from_f64(2.0) * half * half);
     let mut rotation = Matrix::<N, T>::identity();
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         rotation[(i, i)] -= versine * (axis[j] * axis[j] + axis[k] * axis[k]);
