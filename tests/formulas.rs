@@ -33,7 +33,10 @@ impl Described {
     }
 
     fn derived(args: &str, item: &str) -> Self {
-        Self::new(args, expand_for_reports(args.parse().unwrap(), item.parse().unwrap()))
+        let tokens = expand_for_reports(args.parse().unwrap(), item.parse().unwrap());
+        // What stands in for a refused model has formulas, too.
+        assert!(!tokens.to_string().contains("compile_error"), "{args}: {tokens}");
+        Self::new(args, tokens)
     }
 
     fn texts(&self) -> impl Iterator<Item = &str> {

@@ -122,7 +122,7 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// One without LaTeX.
+    /// A formula that has no LaTeX.
     #[must_use]
     pub const fn plain(text: Word) -> Self {
         Self { text, latex: None }

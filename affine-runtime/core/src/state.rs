@@ -291,13 +291,13 @@ impl<const N: usize, F: Frame, C: Translation<N, T>, T: Real, B: Basis> Phase<N,
     }
     fn is_finite(&self) -> bool {
         is_finite(self.phi.as_slice())
-            & is_finite(self.spin.as_slice())
-            & is_finite(self.x().as_slice())
-            & is_finite(self.p().as_slice())
+            && is_finite(self.spin.as_slice())
+            && is_finite(self.x().as_slice())
+            && is_finite(self.p().as_slice())
     }
 }
 
-/// All entries are finite: zero times each of them is zero. Without branches.
+/// All entries are finite.
 fn is_finite<T: Real>(entries: &[T]) -> bool {
-    entries.iter().fold(T::zero(), |sum, entry| sum + T::zero() * *entry) == T::zero()
+    entries.iter().all(|entry| entry.is_finite())
 }

@@ -221,7 +221,7 @@ pub trait EqualStepMethod {
     /// Moves a point by the time `h`, where the step before, if there is one, had the length `last`.
     ///
     /// # Errors
-    /// [`Failure::NoSolution`], [`Failure::NotFinite`]; the point is none then.
+    /// [`Failure::NoSolution`], [`Failure::NotFinite`]; what is left of the point then has no meaning.
     fn step(&mut self, from: (f64, &mut Self::Point), h: f64, last: Option<f64>) -> Result<(), Failure>;
     /// The same from where the last step, of length `last`, began, without influence on the steps.
     ///

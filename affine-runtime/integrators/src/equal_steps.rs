@@ -92,8 +92,8 @@ impl<P: Copy> EqualSteps<P> {
         }
     }
 
-    /// Takes a step, which moves a point from a time on by a length, where there was a step before by its length, too; does
-    /// nothing at `t_end`. Where it fails the point stays, now and ever after.
+    /// Takes a step; does nothing at `t_end`. What moves the point is given the time, the point, which it changes, the length of
+    /// the step, and that of the step before if there is one. Where it fails the point reached stays, now and ever after.
     ///
     /// # Errors
     /// Those of the step.

@@ -104,6 +104,11 @@ mod tests {
     /// Placements and velocities of any size, some of them nearly flat, and others a short or long step away.
     #[test]
     fn what_is_clear_is_true() {
+        drawn::<2>();
+        drawn::<3>();
+    }
+
+    fn drawn<const N: usize>() {
         let mut state = 1_u64;
         let mut uniform = move || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -114,9 +119,9 @@ mod tests {
             let size = 10.0_f64.powf(310.0 * uniform());
             let flat = 10.0_f64.powf(-8.0 * uniform().abs());
             let step = 10.0_f64.powf(6.0 * uniform() - 4.0);
-            let mut matrix = || Matrix::<3>::from_fn(|i, _| uniform() * if i == 0 { flat } else { 1.0 });
+            let mut matrix = || Matrix::<N>::from_fn(|i, _| uniform() * if i == 0 { flat } else { 1.0 });
             let (phi, change, rates) = (matrix(), matrix() * step, [matrix() * step, matrix() * step]);
-            let moment = |t: f64, phi: Matrix<3>, rate: Matrix<3>| {
+            let moment = |t: f64, phi: Matrix<N>, rate: Matrix<N>| {
                 let (phi, rate) = (phi * size, rate * size);
                 Moment { t, phi, rate, size: length(&phi), speed: length(&rate) }
             };

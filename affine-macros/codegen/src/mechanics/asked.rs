@@ -21,6 +21,6 @@ pub struct Asked {
     pub acceleration: bool,
     /// The balance laws of a d'Alembert model.
     pub balance: bool,
-    /// Formulas in LaTeX.
+    /// The formulas of the description in LaTeX, beside plain text.
     pub latex: bool,
 }

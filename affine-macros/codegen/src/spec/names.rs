@@ -115,7 +115,7 @@ pub enum Capability {
     Acceleration,
     /// The balance laws of the kinematical spin.
     Balance,
-    /// Formulas in LaTeX.
+    /// The formulas of the description in LaTeX, beside plain text.
     Latex,
 }
 

@@ -4,7 +4,7 @@ use super::names::Notation;
 use super::sentence::Sentence;
 use crate::algebra::Arena;
 
-/// A formula.
+/// A formula as it stands in a description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
     /// Plain text.
