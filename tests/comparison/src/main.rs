@@ -83,9 +83,23 @@ fn compare(mut only: Vec<String>) -> affine_runtime::Result<Result<(), String>> 
     print!("{:14}", "problem");
     ERRORS.iter().for_each(|error| print!("{error:>10.0e}"));
     println!();
-    let mut comparison =
-        Comparison { only, methods, peers, compiled, fastest: Vec::new(), csv: CSV_HEAD.to_owned() };
+    let mut comparison = Comparison {
+        only,
+        all: Vec::new(),
+        methods,
+        peers,
+        compiled,
+        fastest: Vec::new(),
+        csv: CSV_HEAD.to_owned(),
+    };
     problems::visit(&mut comparison)?;
+    let Comparison { only, all, .. } = &comparison;
+    if let Some(wrong) = only.iter().find(|asked| !all.contains(&asked.as_str())) {
+        let all = all.join(", ");
+        return Ok(Err(format!(
+            "no problem `{wrong}`: there are {all}; `--methods`, `--peers FILE`; or `rhs`"
+        )));
+    }
     println!("\nleast of other tools, in microseconds\n");
     comparison.fastest.iter().for_each(|row| println!("{row}"));
     let path = "output/comparison.csv";
@@ -110,6 +124,8 @@ const CSV_HEAD: &str = "tool,problem,tolerance,error_phi,evaluations,microsecond
 struct Comparison {
     /// Names of the problems to run; all if there are none.
     only: Vec<String>,
+    /// Names of those that there are.
+    all: Vec<&'static str>,
     /// Whether other methods of this project are measured as well.
     methods: bool,
     /// Results from elsewhere.
@@ -128,6 +144,7 @@ impl Visitor for Comparison {
         ends: [M::Point<f64>; 2],
         t_end: f64,
     ) -> affine_runtime::Result<()> {
+        self.all.push(name);
         if !self.only.is_empty() && !self.only.iter().any(|asked| asked == name) {
             return Ok(());
         }

@@ -204,7 +204,7 @@ impl ExpressionMistake {
             Self::ExpressionSize { limit } => text(
                 format!("the expression has more than {limit}"),
                 "the macro bounds what it works through, so that a slip cannot stall a build",
-                "split it: compute a part and keep it in a field",
+                "split it: keep a constant part in a field; a longer potential is one of a field, `custom(field, general)`",
             ),
             Self::FlatMatrix => text(
                 "a row of a matrix is not in brackets",
