@@ -48,7 +48,14 @@ struct Compiler {
 impl Compiler {
     fn new() -> Self {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(["check", "--quiet", "--package=affine-tests", "--lib", "--message-format=json"]);
+        cargo.args([
+            "check",
+            "--profile=test",
+            "--quiet",
+            "--package=affine-tests",
+            "--lib",
+            "--message-format=json",
+        ]);
         let output = cargo.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let artifacts = String::from_utf8(output.stdout).unwrap();
@@ -224,7 +231,9 @@ const NOTE: &str = "note: this error originates in the attribute macro `affine_m
 fn calls_name_the_feature_that_is_off() {
     let folder = folder("features");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["check", "--quiet", "--color=never", "--package=affine-features"]).current_dir(&folder);
+    cargo
+        .args(["check", "--profile=test", "--quiet", "--color=never", "--package=affine-features"])
+        .current_dir(&folder);
     let output = cargo.output().unwrap();
     assert!(!output.status.success(), "the calls compile without the feature");
     let said = String::from_utf8(output.stderr).unwrap();
