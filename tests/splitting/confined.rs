@@ -1,6 +1,6 @@
 //! Motions on groups: exponentials stay on them, and kicks are projected.
 
-use affine_runtime::decompose::{LinearMap, Polar};
+use affine_runtime::decompose::Polar;
 use affine_runtime::prelude::*;
 
 use crate::models::{phi3, spin3};

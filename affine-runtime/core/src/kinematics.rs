@@ -157,14 +157,14 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     {
         Strain::euler(self.phi())
     }
-    /// Characteristic invariants `I1..In` of `G`; see [`characteristic_invariants`](crate::decompose::characteristic_invariants).
+    /// Characteristic invariants `I1..In` of `G`; see [`characteristic_invariants`].
     fn invariants(&self) -> [T; N]
     where
         Self: Euclidean,
     {
         characteristic_invariants(self.phi())
     }
-    /// Mean log-stretch `q = ln(det phi)/n`; see [`mean_log_stretch`](crate::decompose::mean_log_stretch).
+    /// Mean log-stretch `q = ln(det phi)/n`; see [`mean_log_stretch`].
     fn mean_log_stretch(&self) -> T
     where
         Self: Euclidean,
@@ -178,7 +178,7 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     {
         dilatation(self.phi())
     }
-    /// Isochoric part `Psi = exp(-q) phi`; see [`isochoric_part`](crate::decompose::isochoric_part).
+    /// Isochoric part `Psi = exp(-q) phi`; see [`isochoric_part`].
     fn isochoric_part(&self) -> Matrix<N, T>
     where
         Self: Euclidean,
