@@ -9,7 +9,7 @@
 
 use std::time::Instant;
 
-use affine_runtime::force::{AtPoint, PointForce, Spatial, Translation};
+use affine_runtime::force::{AtPoint, PointForce, Space, Translation};
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};
@@ -43,7 +43,7 @@ pub struct Bouncing {
     /// What the ground does to the centre.
     pub press: AtPoint<3, Ground, Translation, 8>,
     /// What it does to the placement.
-    pub turn: AtPoint<3, Ground, Spatial, 8>,
+    pub turn: AtPoint<3, Ground, Space, 8>,
 }
 
 /// Presses what is below it upward, in proportion to the depth.

@@ -14,7 +14,7 @@
 use std::fs;
 
 use affine_runtime::frames::Matrix;
-use affine_runtime::lattice::{Growth, Lattice, LatticeFlow, TwoPolarForm, classify};
+use affine_runtime::lattice::{Growth, Lattice, LatticeFlow, MotionClass, TwoPolarForm};
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};
 
@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // Moving inwards, so that motions that escape are seen to come and go.
         let start = at(x, -0.35);
         let point = PlanarBody.at_lattice(&start)?;
-        let class = classify(&PlanarBody, &point).map(|class| class.shear);
+        let class = MotionClass::of(&PlanarBody, &point).map(|class| class.shear);
         let category = match class {
             Some(Growth::Bounded { .. }) => BOUNDED,
             _ => ESCAPING,
@@ -133,7 +133,7 @@ fn nearly_skew() -> affine_runtime::Result<[usize; 2]> {
             + Matrix::<2>::new(sigma[(0, 0)], 0.0, 0.0, -sigma[(0, 0)]);
         let plane = PlanarBody.at_momentum(Matrix::<2>::identity(), Spatial(planar))?;
         let space = SpatialBody.at_momentum(Matrix::<3>::identity(), Spatial(sigma))?;
-        let shears = [classify(&PlanarBody, &plane), classify(&SpatialBody, &space)];
+        let shears = [MotionClass::of(&PlanarBody, &plane), MotionClass::of(&SpatialBody, &space)];
         for (count, class) in bounded.iter_mut().zip(shears) {
             *count += usize::from(class.is_some_and(|class| matches!(class.shear, Growth::Bounded { .. })));
         }

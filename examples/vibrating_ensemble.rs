@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use affine_runtime::lanes::{Lanes, Widest};
+use affine_runtime::lanes::{F64x8, Lanes};
 use affine_runtime::prelude::*;
 
 /// Affine in space, metrical in the body, with a stiff dilatation and a soft shear.
@@ -75,7 +75,7 @@ fn main() -> affine_runtime::Result<()> {
     });
     let worst =
         worst.fold(0.0, |worst: f64, error| if error <= worst || worst.is_nan() { worst } else { error });
-    println!("{BODIES} bodies to t = {T_END} at {TOLERANCE:e}, {} lanes", Widest::LANES);
+    println!("{BODIES} bodies to t = {T_END} at {TOLERANCE:e}, {} lanes", F64x8::LANES);
     println!("largest difference between the two ways: {worst:.1e}");
     let steps: u64 = pairs.iter().flat_map(|(alone, _)| alone.iter().map(|(_, steps)| steps)).sum();
     println!("{steps} steps, {} outputs, {} events", counted[0], counted[1]);

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
-use affine_runtime::decompose::two_polar;
+use affine_runtime::decompose::TwoPolar;
 use affine_runtime::frames::Matrix;
 
 const REPEATS: usize = 21;
@@ -59,7 +59,7 @@ macro_rules! compare {
         let cases = cases::<$n>();
         let mut worst: BTreeMap<&str, [[f64; 2]; 2]> = BTreeMap::new();
         for (kind, phi, expected) in &cases {
-            let ours = two_polar(phi).map(|found| errors(found.stretches.as_slice(), expected)).unwrap();
+            let ours = TwoPolar::of(phi).map(|found| errors(found.stretches.as_slice(), expected)).unwrap();
             let svd = phi.svd(true, true);
             let theirs = errors(svd.singular_values.as_slice(), expected);
             let entry = worst.entry(kind).or_default();
@@ -75,7 +75,7 @@ macro_rules! compare {
         let random: Vec<_> = cases.iter().filter(|case| case.0 == "random").map(|case| case.1).collect();
         let ours = time(random.len(), || {
             random.iter().for_each(|phi| {
-                black_box(two_polar(black_box(phi))).unwrap();
+                black_box(TwoPolar::of(black_box(phi))).unwrap();
             });
         });
         let theirs = time(random.len(), || {

@@ -22,7 +22,7 @@ pub(crate) mod pieces;
 mod ratios;
 
 pub use circle::CircleFlow;
-pub use classify::{Dilatation, Growth, MotionClass, classify};
+pub use classify::{Dilatation, Growth, MotionClass};
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
 pub use pieces::{LatticePieces, LatticeSplitting};

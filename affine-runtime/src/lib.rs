@@ -56,7 +56,7 @@
 //! | [`inertia`], [`material`] | inertias of shapes; material points, and moments about any point |
 //! | [`force`], [`potential`] | forces and potentials of your own |
 //! | [`analysis`] | Jacobians, equilibria, stability, branches |
-//! | [`decompose`], [`lattice`] | stretches, polar and two-polar form |
+//! | [`decompose`], [`lattice`] | functions of matrices, polar and two-polar form of placements |
 //! | [`variation`], [`dual`], [`parametric`] | derivatives |
 //! | [`bracket`] | Poisson brackets of functions of a point |
 //! | [`elliptic`] | the integrals that self-gravity consists of |
@@ -99,6 +99,7 @@ pub mod analysis;
 pub mod bracket;
 #[cfg(feature = "std")]
 pub mod counting;
+pub mod decompose;
 pub mod dual;
 pub mod elliptic;
 pub mod force;
@@ -124,13 +125,12 @@ pub mod variation;
 mod without_report;
 
 pub use affine_core::{
-    balance, conserved, decompose, error, frames, geodesic, kinematics, metrics, model, parametric, scalar,
-    state,
+    balance, conserved, error, frames, geodesic, kinematics, metrics, model, parametric, scalar, state,
 };
 pub(crate) use affine_integrators as integrate;
 /// Numbers that are several, side by side: bodies of an ensemble in the vectors of a processor.
 pub mod lanes {
-    pub use affine_integrators::lanes::{F64x8, F64x16, FastF64x8, Lanes, Widest};
+    pub use affine_integrators::lanes::{F64x8, F64x16, FastF64x8, Lanes};
 }
 
 /// What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
@@ -167,6 +167,7 @@ pub use affine_macros::affine_model;
 
 /// What a scene needs.
 pub mod prelude {
+    pub use crate::decompose::LinearMap;
     pub use crate::frames::{AffineSpin, AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector};
     pub use crate::kinematics::Kinematics;
     pub use crate::model::Model;
@@ -196,7 +197,7 @@ macro_rules! pages {
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
         /// [`Generator`]: crate::analysis::Generator
         /// [`inertia`]: crate::inertia
-        /// [`inertia::from_rotational`]: crate::inertia::from_rotational
+        /// [`MassDistribution::from_rotational`]: crate::inertia::MassDistribution::from_rotational
         /// [`Table`]: crate::simulate::Table
         /// [`Trajectory`]: crate::simulate::Trajectory
         /// [`Variation`]: crate::variation::Variation

@@ -1,7 +1,8 @@
 //! Material points of a body and rates of its deformation, and moments about points of space (Slawianowski et al., sections 2 to
 //! 4).
 
-use crate::frames::{Comoving, Matrix, Spatial, Vector, inverse};
+use crate::decompose::LinearMap;
+use crate::frames::{Comoving, Matrix, Spatial, Vector};
 use crate::kinematics::{AffineMomentum, InertialQuadrupole, LinearVelocity};
 use crate::model::Velocity;
 use crate::scalar::Real;
@@ -34,7 +35,7 @@ pub trait Material<const N: usize, T: Real = f64>: Phase<N, T> {
     }
     /// The body point at `y`: `a = phi^-1 (y - x)`.
     fn point_at(&self, y: &Vector<N, T>) -> Vector<N, T> {
-        inverse(self.phi()) * (y - self.x())
+        self.phi().inverse() * (y - self.x())
     }
     /// Lagrange's velocity field, that of the body point `a` in space: `x_dot + phi_dot a`.
     fn velocity_of(&self, velocity: &Velocity<N, T>, a: &Vector<N, T>) -> Vector<N, T> {
@@ -50,7 +51,7 @@ pub trait Material<const N: usize, T: Real = f64>: Phase<N, T> {
         velocity: &Velocity<N, T>,
         a: &Vector<N, T>,
     ) -> Comoving<LinearVelocity<N, T>> {
-        Comoving(LinearVelocity(inverse(self.phi()) * self.velocity_of(velocity, a)))
+        Comoving(LinearVelocity(self.phi().inverse() * self.velocity_of(velocity, a)))
     }
 
     /// The rate `dG/dt = phi_dot^T phi + phi^T phi_dot = Omega_hat^T G + G Omega_hat`.
@@ -66,7 +67,7 @@ pub trait Material<const N: usize, T: Real = f64>: Phase<N, T> {
     where
         Self: Euclidean,
     {
-        let inverse = inverse(self.phi());
+        let inverse = self.phi().inverse();
         let half = inverse.tr_mul(&inverse) * velocity.phi_dot * inverse;
         Spatial(-(half + half.transpose()))
     }

@@ -64,13 +64,10 @@ use std::path::Path;
 #[cfg(feature = "analysis")]
 pub(crate) use curves::PANEL;
 pub use curves::{Curve, CurveDiagram, CurvePanel};
-pub use diagram::{WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
+pub use diagram::WorkPrecisionDiagram;
 pub use page::Page;
 pub use reference::reference_solution;
-pub use stability::{
-    Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict, relative_distance,
-    relative_distance_by_rows,
-};
+pub use stability::{Demand, Finding, Oracle, Scene, StabilityCase, StabilityReport, Verdict};
 pub use stress::Stress;
 pub use work_precision::{Measurement, Row, WorkPrecision, WorkPrecisionReport};
 

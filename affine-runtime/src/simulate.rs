@@ -68,11 +68,11 @@ mod witness;
 mod written;
 
 pub use crate::error::{Callback, Reason, Setting, Stop};
-pub use affine_integrators::{Failure, FusedArithmetic, Statistics, fused_arithmetic};
+pub use affine_integrators::{Failure, FusedArithmetic, Statistics};
 pub use checkpoint::Checkpoint;
 pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble, Member};
-pub use event::{Direction, Event, Occurrence};
+pub use event::{Event, Occurrence};
 pub use flow::Flow;
 #[cfg(feature = "csv")]
 pub use format::Format;

@@ -96,22 +96,28 @@ impl<const N: usize, P: Phase<N>> Distribution<P> for Gaussian<N, P> {
 /// Numbers of all momenta, the internal and the linear one.
 const MOMENTA: usize = 12;
 
-/// Phase points with placement and position of one, and momenta of a level of the energy: uniform on the ellipsoid
-/// `T(momenta) = E - U`, as the microcanonical ensemble at a fixed placement has it, `delta(H - E)` over all momenta. With
-/// `T = 1/2 pi^T A pi` and `A = L L^T`, `L^T pi` is uniform on a sphere.
+/// Phase points with the placement and the position of one, and momenta of a level: of the [energy](Self::of_energy), or of their
+/// [norm](Self::of_norm).
 #[derive(Clone, Debug, PartialEq)]
-pub struct EnergyLevel<const N: usize, P> {
+pub struct MomentumLevel<const N: usize, P> {
     point: P,
     /// From the unit sphere to momenta.
     root: SMatrix<f64, MOMENTA, MOMENTA>,
+    /// How many are drawn: the internal ones, or the linear ones too.
     momenta: usize,
 }
 
-impl<const N: usize, P: Phase<N>> EnergyLevel<N, P> {
-    /// At the placement and the position of a phase point, at a time. `None` where rest has more energy than that, and where
-    /// the kinetic energy is not quadratic or not positive.
+impl<const N: usize, P: Phase<N>> MomentumLevel<N, P> {
+    /// Uniform on the ellipsoid `T(momenta) = E - U` at the placement and the position of a phase point, at a time, as the
+    /// microcanonical ensemble at a fixed placement has it, `delta(H - E)` over all momenta. With `T = 1/2 pi^T A pi` and
+    /// `A = L L^T`, `L^T pi` is uniform on a sphere. `None` where rest has more energy than that, and where the kinetic energy is
+    /// not quadratic or not positive.
     #[must_use]
-    pub fn at<M: Model<N, Point<f64> = P>>(model: &M, (t, point): (f64, P), energy: f64) -> Option<Self> {
+    pub fn of_energy<M: Model<N, Point<f64> = P>>(
+        model: &M,
+        (t, point): (f64, P),
+        energy: f64,
+    ) -> Option<Self> {
         const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
         let moves = M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::Position);
         let momenta = N * N + if moves { N } else { 0 };
@@ -136,41 +142,27 @@ impl<const N: usize, P: Phase<N>> EnergyLevel<N, P> {
         let is_quadratic = (of(&probe) - energy).abs() <= NEARLY * (free + rest.abs());
         is_quadratic.then_some(Self { point, root, momenta })
     }
+
+    /// Uniform on the sphere of this Frobenius norm in the momenta of the model's own frame, `Sigma`, `Sigma_hat` or `Pi`; the
+    /// linear momentum is that of the phase point.
+    #[must_use]
+    pub fn of_norm<M: Model<N, Point<f64> = P>>(_model: &M, point: P, norm: f64) -> Self {
+        const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
+        Self { point, root: SMatrix::from_diagonal_element(norm), momenta: N * N }
+    }
 }
 
 /// Part of an energy that rounding may make of the sums of a quadratic form.
 const NEARLY: f64 = 1e-9;
 
-impl<const N: usize, P: Phase<N>> Distribution<P> for EnergyLevel<N, P> {
+impl<const N: usize, P: Phase<N>> Distribution<P> for MomentumLevel<N, P> {
     fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
         let numbers =
             SVector::from_fn(|k, _| if k < self.momenta { rng.sample(StandardNormal) } else { 0.0 });
-        with_momenta(&self.point, &(self.root * direction(numbers)))
-    }
-}
-
-/// Phase points with placement, position and linear momentum of one, and momenta of the model's own frame, `Sigma`,
-/// `Sigma_hat` or `Pi`, of a level of their Frobenius norm: uniform on that sphere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MomentumLevel<const N: usize, P> {
-    point: P,
-    norm: f64,
-}
-
-impl<const N: usize, P: Phase<N>> MomentumLevel<N, P> {
-    /// At the placement of a phase point of a model.
-    #[must_use]
-    pub fn at<M: Model<N, Point<f64> = P>>(_model: &M, point: P, norm: f64) -> Self {
-        const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
-        Self { point, norm }
-    }
-}
-
-impl<const N: usize, P: Phase<N>> Distribution<P> for MomentumLevel<N, P> {
-    fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
-        let numbers = SVector::from_fn(|k, _| if k < N * N { rng.sample(StandardNormal) } else { 0.0 });
-        let mut momenta = direction(numbers) * self.norm;
-        self.point.p().iter().enumerate().for_each(|(i, p)| momenta[N * N + i] = *p);
+        let mut momenta = self.root * direction(numbers);
+        if self.momenta == N * N {
+            self.point.p().iter().enumerate().for_each(|(i, p)| momenta[N * N + i] = *p);
+        }
         with_momenta(&self.point, &momenta)
     }
 }

@@ -66,7 +66,7 @@ fn has_the_table<const N: usize, M: Model<N>>(model: &M) {
         }
         near(poisson_bracket(model, &at, x(i), p_hat(j)), at.phi()[(i, j)], "x and p_hat");
     }
-    let q = |at: &M::Point<Number>| affine_runtime::kinematics::mean_log_stretch(at.phi());
+    let q = |at: &M::Point<Number>| at.phi().mean_log_stretch();
     let p_dil = |at: &M::Point<Number>| at.sigma().dilatational_momentum();
     near(poisson_bracket(model, &at, q, p_dil), 1.0, "q and p_dil");
 }

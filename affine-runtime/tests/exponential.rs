@@ -1,7 +1,7 @@
 //! The matrix exponential against 60-digit values, and the rotations against the exponential.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use affine_runtime::decompose::{exponential, skew_exponential};
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::frames::Matrix;
 use affine_runtime::scalar::Real;
 
@@ -69,7 +69,7 @@ fn assert_bound<const N: usize>() {
     let mut worst = (0.0, String::new());
     for case in cases(N) {
         let a = matrix::<N>(&case.matrix);
-        let error = relative_error(&exponential(&a), &case);
+        let error = relative_error(&a.exponential(), &case);
         let ratio = error / (f64::EPSILON * (1.0 + case.kappa));
         assert!(ratio <= tolerance::EXPONENTIAL, "{}, norm {:e}: ratio {ratio}", case.kind, a.norm());
         if ratio > worst.0 {
@@ -95,7 +95,7 @@ fn assert_inverse<const N: usize>(expected: usize) {
     let mut checked = 0;
     for case in cases(N) {
         let a = matrix::<N>(&case.matrix);
-        let (forth, back) = (exponential(&a), exponential(&-a));
+        let (forth, back) = (a.exponential(), (-a).exponential());
         let relative =
             tolerance::EXPONENTIAL * (2.0 + case.kappa + case.kappa_of_minus) + tolerance::PRODUCT * N as f64;
         let bound = f64::EPSILON * relative * forth.norm() * back.norm();
@@ -124,14 +124,14 @@ fn assert_rotations<const N: usize>() {
     let mut worst = 0.0_f64;
     for case in cases(N).iter().filter(|case| case.kind == "skew") {
         let w = matrix::<N>(&case.matrix);
-        let rotation = skew_exponential(&w);
+        let rotation = w.skew_exponential();
         assert_orthogonal(&rotation);
         worst = worst.max(relative_error(&rotation, case) / (f64::EPSILON * (1.0 + case.kappa)));
 
         let single = w.map(|v| v as f32);
-        let rotation = skew_exponential(&single);
+        let rotation = single.skew_exponential();
         assert_orthogonal(&rotation);
-        let reference = exponential(&single.map(f64::from));
+        let reference = single.map(f64::from).exponential();
         let error = (rotation.map(f64::from) - reference).norm() / reference.norm();
         let ratio = error / (f64::from(f32::EPSILON) * (1.0 + case.kappa));
         assert!(ratio <= tolerance::ROTATION, "single precision, angle {}: {ratio}", w.norm());
@@ -153,7 +153,7 @@ fn rotations_are_orthogonal_at_every_angle() {
         let angle = 10.0_f64.powi(exponent);
         for [x, y, z] in axes.map(|axis| axis.map(|component| component * angle)) {
             let skew = Matrix::<3>::new(0.0, -z, y, z, 0.0, -x, -y, x, 0.0);
-            let rotation = skew_exponential(&skew);
+            let rotation = skew.skew_exponential();
             assert_orthogonal(&rotation);
             if angle < 1e-3 {
                 // exp(W) = 1 + W + W^2/2 + O(w^3)
@@ -164,32 +164,32 @@ fn rotations_are_orthogonal_at_every_angle() {
                 assert!(odd.amax() <= angle.powi(3) + 4.0 * f64::EPSILON * angle, "angle {angle:e}: {odd}");
             }
         }
-        assert_orthogonal(&skew_exponential(&Matrix::<2>::new(0.0, -angle, angle, 0.0)));
+        assert_orthogonal(&Matrix::<2>::new(0.0, -angle, angle, 0.0).skew_exponential());
     }
-    assert_eq!(skew_exponential(&Matrix::<3>::zeros()), Matrix::<3>::identity());
-    assert_eq!(skew_exponential(&Matrix::<2, f32>::zeros()), Matrix::<2, f32>::identity());
+    assert_eq!(Matrix::<3>::zeros().skew_exponential(), Matrix::<3>::identity());
+    assert_eq!(Matrix::<2, f32>::zeros().skew_exponential(), Matrix::<2, f32>::identity());
 }
 
 #[test]
 fn exact_values_are_exact() {
-    assert_eq!(exponential(&Matrix::<3>::zeros()), Matrix::<3>::identity());
+    assert_eq!(Matrix::<3>::zeros().exponential(), Matrix::<3>::identity());
     // Nilpotent: exp(A) = 1 + A, far beyond the norms of the data file as well.
     for size in [1e-300, 1.0, 700.0, 1e100] {
         let shear = Matrix::<2>::new(0.0, size, 0.0, 0.0);
-        assert_eq!(exponential(&shear), Matrix::<2>::identity() + shear);
+        assert_eq!(shear.exponential(), Matrix::<2>::identity() + shear);
     }
 }
 
 #[test]
 fn overflow_is_infinite_and_underflow_is_zero() {
     let inf = f64::INFINITY;
-    assert_eq!(exponential(&Matrix::<2>::new(800.0, 1.0, 0.0, 800.0)), Matrix::<2>::new(inf, inf, 0.0, inf));
-    assert_eq!(exponential(&Matrix::<2>::new(800.0, -1.0, 0.0, 700.0))[(0, 1)], -inf);
-    assert_eq!(exponential(&Matrix::<2>::from_diagonal_element(-1e4)), Matrix::<2>::zeros());
+    assert_eq!(Matrix::<2>::new(800.0, 1.0, 0.0, 800.0).exponential(), Matrix::<2>::new(inf, inf, 0.0, inf));
+    assert_eq!(Matrix::<2>::new(800.0, -1.0, 0.0, 700.0).exponential()[(0, 1)], -inf);
+    assert_eq!(Matrix::<2>::from_diagonal_element(-1e4).exponential(), Matrix::<2>::zeros());
     // The mean underflows and the deviator overflows; their product does neither.
-    let decay = exponential(&Matrix::<2>::new(-4000.0, 0.0, 0.0, 0.0)) - Matrix::<2>::new(0.0, 0.0, 0.0, 1.0);
+    let decay = Matrix::<2>::new(-4000.0, 0.0, 0.0, 0.0).exponential() - Matrix::<2>::new(0.0, 0.0, 0.0, 1.0);
     assert!(decay.amax() <= tolerance::EXPONENTIAL * f64::EPSILON * 4001.0, "{decay}");
-    let wild = exponential(&Matrix::<3>::new(1e3, 2e3, 5e2, -3e2, 4e3, 1e2, 7e2, -1e3, 2e3));
+    let wild = Matrix::<3>::new(1e3, 2e3, 5e2, -3e2, 4e3, 1e2, 7e2, -1e3, 2e3).exponential();
     assert!(wild.iter().all(|v| v.is_infinite()), "{wild}");
 }
 
@@ -199,7 +199,7 @@ fn what_is_not_finite_gives_nan() {
         for place in 0..9 {
             let mut matrix = Matrix::<3>::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
             matrix[place] = bad;
-            assert!(exponential(&matrix).iter().all(|v| v.is_nan()));
+            assert!(matrix.exponential().iter().all(|v| v.is_nan()));
         }
     }
 }

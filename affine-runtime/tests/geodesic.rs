@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use affine_runtime::frames::{Matrix, Vector};
-use affine_runtime::geodesic::{Geodesic, Motion};
+use affine_runtime::geodesic::{Geodesic, Orbit};
 
 /// Tolerances, relative to the largest entry compared.
 mod tolerance {
@@ -67,12 +67,12 @@ const TIMES: [f64; 6] = [-1.5, 0.75, 1.0, 2.25, 4.0, 6.5];
 
 fn body<const N: usize>(inertia: Inertia, spin: &Matrix<N>) -> Geodesic<N> {
     let (stretch, whirl) = inertia.generators(spin);
-    Geodesic { t0: T0, motion: Motion::Body { stretch, whirl }, drift: Vector::<N>::zeros() }
+    Geodesic { t0: T0, motion: Orbit::Body { stretch, whirl }, drift: Vector::<N>::zeros() }
 }
 
 fn space<const N: usize>(inertia: Inertia, spin: &Matrix<N>, drift: Vector<N>) -> Geodesic<N> {
     let (stretch, whirl) = inertia.generators(spin);
-    Geodesic { t0: T0, motion: Motion::Space { stretch, whirl }, drift }
+    Geodesic { t0: T0, motion: Orbit::Space { stretch, whirl }, drift }
 }
 
 /// `d phi/dt` by central differences of order eight.
@@ -208,7 +208,7 @@ fn dalembert_motion_is_straight() {
     let phi_dot = Matrix::<3>::new(0.5, -1.0, 0.25, 2.0, 0.0, -0.5, 0.125, 1.0, -0.75);
     let pi = Matrix::<3>::from_diagonal(&Vector::<3>::new(1.0, 1.5, 2.0)) * phi_dot.transpose();
     let geodesic =
-        Geodesic { t0: T0, motion: Motion::Straight { velocity: phi_dot }, drift: Vector::<3>::zeros() };
+        Geodesic { t0: T0, motion: Orbit::Straight { velocity: phi_dot }, drift: Vector::<3>::zeros() };
     assert_eq!(geodesic.placement(T0 + 2.0, &phi0), phi0 + phi_dot + phi_dot);
     assert_eq!(geodesic.spin(T0 + 2.0, &pi), pi);
 }

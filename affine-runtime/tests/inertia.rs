@@ -3,9 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use affine_runtime::inertia::{
-    Particles, block, comoving_tensor, cylinder, ellipsoid, from_rotational, particles, spatial_tensor,
-};
+use affine_runtime::inertia::{InertiaTensor, MassDistribution};
 use affine_runtime::kinematics::InertialQuadrupole;
 use affine_runtime::material::Material;
 use affine_runtime::prelude::*;
@@ -29,11 +27,11 @@ fn radii() -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// A shape as nodes with volumes, scaled to a mass: what integrates `1` and `a a^T` exactly.
-fn with_mass<const N: usize>(mass: f64, nodes: Vec<(f64, Vector<N>)>) -> Particles<N> {
+fn with_mass<const N: usize>(mass: f64, nodes: Vec<(f64, Vector<N>)>) -> MassDistribution<N> {
     let volume: f64 = nodes.iter().map(|(w, _)| w).sum();
     let nodes: Vec<_> = nodes.into_iter().map(|(w, a)| (w * mass / volume, a)).collect();
     let direct = nodes.iter().fold(Matrix::<N>::zeros(), |sum, (m, a)| sum + a * a.transpose() * *m);
-    let found = particles(&nodes);
+    let found = MassDistribution::particles(&nodes);
     assert!(found.centre.norm() < ROUNDING && (found.quadrupole - direct).norm() < ROUNDING * direct.norm());
     found
 }
@@ -48,12 +46,15 @@ fn blocks_and_ellipsoids_of_the_plane_are_what_integrals_give() {
     let line =
         |w: f64, u: f64| GAUSS.map(|(v, weight)| (w * weight, Vector::<2>::new(a / 2.0 * u, b / 2.0 * v)));
     let rectangle = GAUSS.iter().flat_map(|(u, w)| line(*w, *u)).collect();
-    assert_same(block(mass, [a, b]), with_mass(mass, rectangle).quadrupole);
+    assert_same(MassDistribution::block(mass, [a, b]).quadrupole, with_mass(mass, rectangle).quadrupole);
 
     let ellipse = radii().flat_map(|(r, w)| {
         turn().map(move |(c, s, angle)| (w * r * angle, Vector::<2>::new(a * r * c, b * r * s)))
     });
-    assert_same(ellipsoid(mass, [a, b]), with_mass(mass, ellipse.collect()).quadrupole);
+    assert_same(
+        MassDistribution::ellipsoid(mass, [a, b]).quadrupole,
+        with_mass(mass, ellipse.collect()).quadrupole,
+    );
 }
 
 #[test]
@@ -77,9 +78,9 @@ fn bodies_of_space_are_what_integrals_give() {
             }
         }
     }
-    assert_same(block(mass, [a, b, c]), with_mass(mass, cells).quadrupole);
-    assert_same(ellipsoid(mass, [a, b, c]), with_mass(mass, ball).quadrupole);
-    assert_same(cylinder(mass, a, c), with_mass(mass, round).quadrupole);
+    assert_same(MassDistribution::block(mass, [a, b, c]).quadrupole, with_mass(mass, cells).quadrupole);
+    assert_same(MassDistribution::ellipsoid(mass, [a, b, c]).quadrupole, with_mass(mass, ball).quadrupole);
+    assert_same(MassDistribution::cylinder(mass, a, c).quadrupole, with_mass(mass, round).quadrupole);
 }
 
 /// Points in no plane, with masses, off the origin.
@@ -95,15 +96,17 @@ fn cloud() -> Vec<(f64, Vector<3>)> {
 /// `I = sum m (|a|^2 1 - a a^T)` (Goldstein, *Classical Mechanics*, section 5.3), summed as it stands there.
 #[test]
 fn the_tensor_of_rotations_leads_to_the_quadrupole() {
-    let Particles { centre, quadrupole, .. } = particles(&cloud());
+    let MassDistribution { mass, centre, quadrupole } = MassDistribution::particles(&cloud());
     let rotational = cloud().iter().fold(Matrix::<3>::zeros(), |sum, (m, a)| {
         let a = a - centre;
         sum + (Matrix::<3>::identity() * a.norm_squared() - a * a.transpose()) * *m
     });
-    assert_same(from_rotational(&rotational), quadrupole);
+    assert_same(MassDistribution::from_rotational(mass, &rotational).quadrupole, quadrupole);
     // A ball: 2/5 m r^2.
     let ball = Matrix::<3>::from_diagonal_element(0.4 * 1.5 * 0.7 * 0.7);
-    assert_same(from_rotational(&ball), ellipsoid(1.5, [0.7; 3]));
+    let [table, shape] =
+        [MassDistribution::from_rotational(1.5, &ball), MassDistribution::ellipsoid(1.5, [0.7; 3])];
+    assert_same(table.quadrupole, shape.quadrupole);
 }
 
 #[affine_model(dim = 3, kinetic(dalembert = j, space_translation = m))]
@@ -116,7 +119,7 @@ struct Cloud {
 /// of the particles.
 #[test]
 fn energy_moments_and_velocities_are_those_of_the_particles() {
-    let Particles { mass, centre, quadrupole } = particles(&cloud());
+    let MassDistribution { mass, centre, quadrupole } = MassDistribution::particles(&cloud());
     let model = Cloud { j: quadrupole, m: mass }.prepare().unwrap();
     let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
     let phi_dot = Matrix::<3>::new(0.3, -0.5, 0.1, 0.7, 0.2, -0.4, 0.6, 0.1, -0.2);
@@ -190,7 +193,7 @@ fn tensors_of_kinetic_energies() {
     };
     let close = |found: f64, known: f64| assert!((found - known).abs() < 1e-13, "{found} {known}");
     let left = Left { k }.prepare().unwrap();
-    let (body, space) = (comoving_tensor(&left, &phi).0, spatial_tensor(&left, &phi).0);
+    let (body, space) = (InertiaTensor::comoving(&left, &phi).0.0, InertiaTensor::spatial(&left, &phi).0.0);
     let start = left.at_velocity(phi, rate).unwrap();
     for [a, b, c, d] in all() {
         close(body[a][b][c][d], stated(a, b, c, d));
@@ -203,7 +206,7 @@ fn tensors_of_kinetic_energies() {
     assert_same(spin(&space, &(rate * inverse)), start.sigma().0.0);
 
     let right = Right { k }.prepare().unwrap();
-    let (body, space) = (comoving_tensor(&right, &phi).0, spatial_tensor(&right, &phi).0);
+    let (body, space) = (InertiaTensor::comoving(&right, &phi).0.0, InertiaTensor::spatial(&right, &phi).0.0);
     let start = right.at_velocity(phi, rate).unwrap();
     for [i, j, k, l] in all() {
         close(space[i][j][k][l], stated(i, j, k, l));

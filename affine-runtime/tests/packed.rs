@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use affine_core::system::Packing;
-use affine_integrators::{FusedArithmetic, RungeKutta5, RungeKutta8, fused_arithmetic};
+use affine_integrators::{FusedArithmetic, RungeKutta5, RungeKutta8};
 use affine_runtime::__private::numerics::Portable;
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
@@ -65,7 +65,7 @@ fn bits(state: &impl AsRef<[f64]>) -> Vec<u64> {
 
 /// Multiply-adds of vectors are rounded once, and those of numbers twice.
 fn only_vectors_are_fused() -> bool {
-    fused_arithmetic() == FusedArithmetic::InVectors
+    FusedArithmetic::here() == FusedArithmetic::InVectors
 }
 
 /// The same bits; of vectors that are fused the same within what rounding makes of 2.0 units of time at 1e-9.

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use affine_runtime::Error;
-use affine_runtime::decompose::{TwoPolar, exponential, polar, skew_exponential, two_polar};
+use affine_runtime::decompose::{LinearMap, Polar, TwoPolar};
 use affine_runtime::frames::{Matrix, Vector};
 use proptest::prelude::*;
 
@@ -47,7 +47,7 @@ fn assert_stretches<const N: usize>(everywhere_relative: bool, allowed: f64) {
     let mut worst = 0.0_f64;
     for case in cases(N) {
         let phi = Matrix::<N>::from_row_slice(&case.phi);
-        let found = match two_polar(&phi) {
+        let found = match TwoPolar::of(&phi) {
             Ok(found) => found,
             Err(error) => panic!("{}: {error}", case.kind),
         };
@@ -97,7 +97,7 @@ fn spatial_stretches_are_exact_to_a_few_roundings() {
 #[test]
 fn polar_factors_are_those_of_the_stretches() {
     let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
-    let found = polar(&phi).unwrap();
+    let found = Polar::of(&phi).unwrap();
     for product in [found.rotation * found.right_stretch, found.left_stretch * found.rotation] {
         assert!((product - phi).amax() < 4e-15);
     }
@@ -116,10 +116,10 @@ fn no_placement_is_refused() {
         Matrix::<2>::new(1.0, f64::NAN, 0.0, 1.0),
         Matrix::<2>::new(f64::INFINITY, 0.0, 0.0, 1.0),
     ] {
-        assert!(matches!(two_polar(&phi), Err(Error::Placement { .. })), "{phi:?}");
+        assert!(matches!(TwoPolar::of(&phi), Err(Error::Placement { .. })), "{phi:?}");
         let mut space = Matrix::<3>::identity();
         space.fixed_view_mut::<2, 2>(1, 1).copy_from(&phi);
-        assert!(matches!(two_polar(&space), Err(Error::Placement { .. })), "{space:?}");
+        assert!(matches!(TwoPolar::of(&space), Err(Error::Placement { .. })), "{space:?}");
     }
 }
 
@@ -144,7 +144,7 @@ fn assert_followed<const N: usize>(known: impl Fn(f64) -> TwoPolar<N>, steps: u3
 }
 
 fn rotation(a: f64, b: f64, c: f64) -> Matrix<3> {
-    skew_exponential(&Matrix::<3>::new(0.0, -c, b, c, 0.0, -a, -b, a, 0.0))
+    Matrix::<3>::new(0.0, -c, b, c, 0.0, -a, -b, a, 0.0).skew_exponential()
 }
 
 #[test]
@@ -213,11 +213,11 @@ proptest! {
     fn every_matrix_decomposes_or_is_refused(entries in prop::array::uniform9(-3.0..3.0_f64)) {
         let phi = Matrix::<3>::from_row_slice(&entries);
         let plane = Matrix::<2>::from_row_slice(&entries[..4]);
-        match two_polar(&phi) {
+        match TwoPolar::of(&phi) {
             Ok(found) => assert_decomposes(&found, &phi, "random"),
             Err(_) => prop_assert!(minors(&phi) < 1e-12),
         }
-        match two_polar(&plane) {
+        match TwoPolar::of(&plane) {
             Ok(found) => assert_decomposes(&found, &plane, "random"),
             Err(_) => prop_assert!(minors(&plane) < 1e-12),
         }
@@ -226,9 +226,9 @@ proptest! {
     /// `phi -> c phi` multiplies the stretches and leaves the frames, exactly for powers of two.
     #[test]
     fn scales_exactly(entries in prop::array::uniform9(-1.0..1.0_f64), power in -900..900_i32) {
-        let phi = exponential(&Matrix::<3>::from_row_slice(&entries));
+        let phi = Matrix::<3>::from_row_slice(&entries).exponential();
         let scale = 2.0_f64.powi(power);
-        let (plain, scaled) = (two_polar(&phi).unwrap(), two_polar(&(phi * scale)).unwrap());
+        let (plain, scaled) = (TwoPolar::of(&phi).unwrap(), TwoPolar::of(&(phi * scale)).unwrap());
         prop_assert_eq!(plain.left, scaled.left);
         prop_assert_eq!(plain.right, scaled.right);
         prop_assert_eq!(plain.stretches * scale, scaled.stretches);

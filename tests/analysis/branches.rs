@@ -4,7 +4,7 @@ use affine_runtime::analysis::{
     AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
     branch_diagram,
 };
-use affine_runtime::force::{Comoving, Force, Motion};
+use affine_runtime::force::{Body as OnBody, Force, Motion};
 use affine_runtime::frames::Matrix;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -109,7 +109,7 @@ struct Follower {
 }
 
 impl Force<2> for Follower {
-    type Form = Comoving;
+    type Form = OnBody;
     fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
         let b = T::constant(self.b, 0.0);
         let zero = T::zero();

@@ -3,7 +3,7 @@
 use affine_runtime::analysis::JacobianMatrix;
 use affine_runtime::counting::Counting;
 use affine_runtime::dual::Dual;
-use affine_runtime::force::{Comoving, Force, Motion};
+use affine_runtime::force::{Body as OnBody, Force, Motion};
 use affine_runtime::frames::Matrix;
 use affine_runtime::model::{Model, Operations, StateVector};
 use affine_runtime::nalgebra::Rotation3;
@@ -37,7 +37,7 @@ struct Driven {
 struct Motor;
 
 impl Force<2> for Motor {
-    type Form = Comoving;
+    type Form = OnBody;
     fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
         let largest = motion.phi[(0, 0)].max(motion.phi[(1, 1)]).copysign(motion.phi[(0, 1)]);
         motion.phi_dot * largest.abs() / (T::one() + motion.t * motion.t).cbrt().asinh()

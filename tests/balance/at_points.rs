@@ -1,7 +1,9 @@
 //! Forces at material points: against the potential that they have, the same forces written by hand, and their power `f . v`.
 
 use affine_oracle::Random;
-use affine_runtime::force::{AtPoint, Comoving, Force, Motion, PointForce, Spatial, Translation};
+use affine_runtime::force::{
+    AtPoint, Body as OnBody, Force, Motion, PointForce, Space as OnSpace, Translation,
+};
 use affine_runtime::model::Quantity;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -67,7 +69,7 @@ impl Force<2> for OnCentre {
 }
 
 impl Force<2> for OnPlacement {
-    type Form = Spatial;
+    type Form = OnSpace;
     fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
         let (arm, force) = at_a(motion);
         Matrix::<2, T>::new(arm[0] * force[0], arm[0] * force[1], arm[1] * force[0], arm[1] * force[1])
@@ -116,7 +118,7 @@ fn springs_pull_as_their_energy_does() {
     #[derive(Clone)]
     struct InSpace {
         pull: Springs<Translation>,
-        turn: Springs<Spatial>,
+        turn: Springs<OnSpace>,
     }
 
     #[affine_model(
@@ -126,7 +128,7 @@ fn springs_pull_as_their_energy_does() {
     #[derive(Clone)]
     struct InBody {
         pull: Springs<Translation>,
-        turn: Springs<Comoving>,
+        turn: Springs<OnBody>,
     }
 
     #[affine_model(
@@ -170,7 +172,7 @@ fn contact_has_the_power_of_its_point() {
     #[derive(Clone)]
     struct Pressed {
         press: AtPoint<2, Ground, Translation>,
-        turn: AtPoint<2, Ground, Comoving>,
+        turn: AtPoint<2, Ground, OnBody>,
     }
 
     let written = Written { press: OnCentre, turn: OnPlacement }.prepare().unwrap();
@@ -209,7 +211,7 @@ fn beside_metrics() {
     #[derive(Clone)]
     struct Skewed {
         press: AtPoint<2, Ground, Translation>,
-        turn: AtPoint<2, Ground, Spatial>,
+        turn: AtPoint<2, Ground, OnSpace>,
     }
     let skewed = Skewed { press: AtPoint::new([B], Ground), turn: AtPoint::new([B], Ground) };
     let skewed = skewed.prepare().unwrap();

@@ -37,7 +37,7 @@ fn potential(place: &Place) -> Differential {
 struct Stirring;
 
 impl<const N: usize> Force<N> for Stirring {
-    type Form = force::Spatial;
+    type Form = force::Space;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         Matrix::<N, T>::from_fn(|i, j| m.x_dot[i] * m.x[j] * m.t - m.phi_dot[(i, 0)] * m.phi[(j, 0)])
     }
@@ -166,7 +166,7 @@ fn assert_follows<const N: usize, M: Model<N>>(
     }
     let moving = model.unflatten(&motion);
     let (phi, pi, p) = (*moving.phi(), moving.pi().0.0, moving.p());
-    let inverse = affine_runtime::frames::inverse(&phi);
+    let inverse = phi.inverse();
     let slope = |m: Matrix<N, Jet>| m.map(|jet| at(jet)[1]);
     let (found, centre) = rates(T0 + STEP, &model.unflatten(&full));
     for (what, found, expected) in

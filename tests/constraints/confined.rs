@@ -5,7 +5,7 @@ use affine_oracle::{
     Constraint, Differential, Kinetic, Matrix as Exact, Motion, Place, Slopes, State, Term, rational,
 };
 use affine_runtime::Error;
-use affine_runtime::frames::inverse;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
@@ -156,7 +156,7 @@ fn nothing_drifts<const N: usize, M: Confined<N>>() {
         let (_, end) = run.end();
         let (phi, defect) = (end.phi(), off_the_group(M::CONSTRAINT, &model.orthonormal(end)));
         // A placement of condition c is on the group to c roundings.
-        let condition = phi.norm() * inverse(phi).norm();
+        let condition = phi.norm() * phi.inverse().norm();
         assert!(defect < ON_THE_GROUP * condition, "{defect:e} at {condition:e}");
     }
 }

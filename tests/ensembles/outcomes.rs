@@ -1,6 +1,6 @@
 //! What becomes of each body of an ensemble.
 
-use affine_runtime::lanes::{FastF64x8, Lanes, Widest};
+use affine_runtime::lanes::{F64x8, FastF64x8, Lanes};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
@@ -23,7 +23,7 @@ fn bodies_come_to_where_each_comes_alone() {
 }
 
 /// More than there are lanes.
-const BODIES: usize = Widest::LANES + 4;
+const BODIES: usize = F64x8::LANES + 4;
 
 #[test]
 fn a_bad_body_does_not_touch_the_others() {
@@ -105,7 +105,7 @@ fn bodies_in_fast_lanes_come_to_the_same_place() {
 /// Nor on the neighbours of a body. Without the feature there is one thread, and the test shows that two runs agree.
 #[test]
 fn results_do_not_depend_on_threads() {
-    results_are_one::<Widest>();
+    results_are_one::<F64x8>();
     results_are_one::<FastF64x8>();
 }
 

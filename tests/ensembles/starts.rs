@@ -1,7 +1,7 @@
 //! Starts that are drawn.
 
 use affine_runtime::prelude::*;
-use affine_runtime::starts::{EnergyLevel, Gaussian, MomentumLevel, latin_hypercube};
+use affine_runtime::starts::{Gaussian, MomentumLevel, latin_hypercube};
 use rand::SeedableRng;
 use rand::distr::Distribution;
 use rand::rngs::StdRng;
@@ -63,7 +63,7 @@ fn starts_of_a_level_of_energy_are_spread_evenly() {
         .unwrap();
     let free = 1.7;
     let energy = Unprotected.hamiltonian(t, &rest) + free;
-    let level = EnergyLevel::at(&Unprotected, (t, point), energy).unwrap();
+    let level = MomentumLevel::of_energy(&Unprotected, (t, point), energy).unwrap();
     let points: Vec<_> = level.sample_iter(random()).take(DRAWN).collect();
     let mut parts = [0.0; 6];
     for drawn in &points {
@@ -76,11 +76,11 @@ fn starts_of_a_level_of_energy_are_spread_evenly() {
     for part in parts {
         assert!((part / DRAWN as f64 - free / 6.0).abs() < MEAN * free / 2.0, "{part}");
     }
-    assert!(EnergyLevel::at(&Unprotected, (t, point), energy - 1.01 * free).is_none());
+    assert!(MomentumLevel::of_energy(&Unprotected, (t, point), energy - 1.01 * free).is_none());
     // Another frame, and a mass matrix that is full; in space.
     let point = DrunkMissile.samples(1, 94)[0];
     let energy = DrunkMissile.hamiltonian(0.0, &point);
-    let level = EnergyLevel::at(&DrunkMissile, (0.0, point), energy).unwrap();
+    let level = MomentumLevel::of_energy(&DrunkMissile, (0.0, point), energy).unwrap();
     for drawn in level.sample_iter(random()).take(100) {
         assert!((DrunkMissile.hamiltonian(0.0, &drawn) / energy - 1.0).abs() < 1e-12);
     }
@@ -89,7 +89,7 @@ fn starts_of_a_level_of_energy_are_spread_evenly() {
 #[test]
 fn starts_of_a_level_of_momentum_are_spread_evenly() {
     let point = Elastic.samples(1, 95)[0];
-    let level = MomentumLevel::at(&Elastic, point, 0.8);
+    let level = MomentumLevel::of_norm(&Elastic, point, 0.8);
     let mut squares = Matrix::<3>::zeros();
     for drawn in level.sample_iter(random()).take(DRAWN) {
         let pi = drawn.pi().0.0;
@@ -100,7 +100,7 @@ fn starts_of_a_level_of_momentum_are_spread_evenly() {
         assert!((square / DRAWN as f64 - 0.64 / 9.0).abs() < MEAN * 0.64 / 9.0 * 2.0, "{square}");
     }
     let moving = Unprotected.samples(1, 95)[0];
-    let drawn = MomentumLevel::at(&Unprotected, moving, 0.8).sample(&mut random());
+    let drawn = MomentumLevel::of_norm(&Unprotected, moving, 0.8).sample(&mut random());
     assert_eq!((drawn.x(), drawn.p()), (moving.x(), moving.p()));
 }
 

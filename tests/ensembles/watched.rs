@@ -2,13 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use affine_runtime::lanes::{Lanes, Widest};
+use affine_runtime::lanes::{F64x8, Lanes};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
 use crate::models::{Elastic, Sampled, Top, Unprotected, vibrating};
 
-const BODIES: usize = 2 * <Widest as Lanes>::LANES + 5;
+const BODIES: usize = 2 * <F64x8 as Lanes>::LANES + 5;
 
 type Point = <Elastic as Model<3>>::Point<f64>;
 

@@ -1,7 +1,7 @@
 //! Ensembles with bodies and settings that make no sense.
 
 use affine_runtime::capability::InLanes;
-use affine_runtime::lanes::{Lanes, Widest};
+use affine_runtime::lanes::{F64x8, Lanes};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Ends, Reason, Setting};
 
@@ -20,7 +20,7 @@ struct Disc;
 struct Confined;
 
 /// More than there are lanes.
-const BODIES: usize = Widest::LANES + 3;
+const BODIES: usize = F64x8::LANES + 3;
 
 fn turned(k: usize) -> Matrix<2> {
     let (sine, cosine) = (0.1 * k as f64).sin_cos();
@@ -79,7 +79,7 @@ where
     // A pinned body has neither x nor p to spoil.
     bad.retain(|(bad, _)| *bad != good[0]);
     for (kind, (bad, determinant)) in bad.into_iter().enumerate() {
-        let place = [0, 1, Widest::LANES - 1, Widest::LANES, BODIES - 1][kind % 5];
+        let place = [0, 1, F64x8::LANES - 1, F64x8::LANES, BODIES - 1][kind % 5];
         let mut starts = good.to_vec();
         starts[place] = bad;
         let ends = ends(model, starts);

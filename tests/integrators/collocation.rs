@@ -1,7 +1,7 @@
 //! Gauss collocation where rounding is all that is left of the equations of a step: momenta that friction has taken away, and
 //! forces of contact whose derivative jumps.
 
-use affine_runtime::force::{Force, Motion, Spatial, Translation};
+use affine_runtime::force::{Force, Motion, Space as OnSpace, Translation};
 use affine_runtime::frames::Vector;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -146,7 +146,7 @@ struct Moments {
 }
 
 impl Force<3> for Moments {
-    type Form = Spatial;
+    type Form = OnSpace;
     fn force<T: Scalar>(&self, motion: &Motion<3, T>) -> Matrix<3, T> {
         let mut moments = [T::zero(); 3];
         let stiffness = T::constant(self.stiffness, 0.0);

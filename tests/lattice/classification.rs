@@ -2,7 +2,7 @@
 
 use affine_oracle::Random;
 use affine_runtime::frames::Matrix;
-use affine_runtime::lattice::{Dilatation, Growth, LatticeFlow, MotionClass, TwoPolarForm, classify};
+use affine_runtime::lattice::{Dilatation, Growth, LatticeFlow, MotionClass, TwoPolarForm};
 use affine_runtime::prelude::*;
 
 use crate::models::*;
@@ -21,7 +21,7 @@ const EXACT: f64 = 1e-14;
 macro_rules! class {
     ($model:ident, $sigma:expr) => {{
         let phi = Matrix::from_diagonal_element(1.0);
-        classify(&$model, &$model.at_momentum(phi, Spatial($sigma)).unwrap()).unwrap()
+        MotionClass::of(&$model, &$model.at_momentum(phi, Spatial($sigma)).unwrap()).unwrap()
     }};
 }
 
@@ -53,7 +53,7 @@ fn planar_shear_is_bounded_below_the_threshold() {
 #[test]
 fn bounded_motions_have_their_period() {
     fn assert_returns<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) {
-        let class = classify(model, point).unwrap();
+        let class = MotionClass::of(model, point).unwrap();
         assert!(class.is_bounded());
         let Growth::Bounded { period: Some(period) } = class.shear else { panic!("{class:?}") };
         let first = model.lattice(point).unwrap();
@@ -141,7 +141,7 @@ fn potentials_confine_the_dilatation() {
 #[test]
 fn no_criterion_no_class() {
     let free = Dalembert3.at_lattice(&start()).unwrap();
-    assert_eq!(classify(&Dalembert3, &free), None);
+    assert_eq!(MotionClass::of(&Dalembert3, &free), None);
     let sheared = AffineAffineSheared3.at_lattice(&start()).unwrap();
-    assert_eq!(classify(&AffineAffineSheared3, &sheared), None);
+    assert_eq!(MotionClass::of(&AffineAffineSheared3, &sheared), None);
 }

@@ -1,7 +1,7 @@
 //! The geodesic lattice (problem P4) against its closed form, its invariants, and what it does where stretches meet.
 
 use affine_runtime::Error;
-use affine_runtime::decompose::exponential;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::frames::Matrix;
 use affine_runtime::lattice::{Lattice, LatticeFlow, LatticeForm, StopReason, TwoPolarForm, Variables};
 use affine_runtime::prelude::*;
@@ -24,7 +24,7 @@ fn closed_form<const N: usize, M: TwoPolarForm<N>>(model: &M, start: &Lattice<N>
     let y = Matrix::<N>::from_fn(|a, b| (0.5 * (start.q[a] - start.q[b])).exp() * z[(a, b)]);
     let rate =
         y * isotropic.inverse_alpha + Matrix::<N>::from_diagonal_element(isotropic.inverse_beta * y.trace());
-    let phi = exponential(&(rate * t)) * Matrix::from_diagonal(&start.q.map(f64::exp));
+    let phi = (rate * t).exponential() * Matrix::from_diagonal(&start.q.map(f64::exp));
     let here = model.at_lattice(start).unwrap();
     here.moved(Vector::zeros(), phi, |_| phi.try_inverse().unwrap() * y * phi)
 }

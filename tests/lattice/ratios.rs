@@ -2,7 +2,7 @@
 //! its closed form.
 
 use affine_integrators::RungeKutta8;
-use affine_runtime::decompose::exponential;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::frames::Matrix;
 use affine_runtime::lattice::{Lattice, LatticeFlow, LatticeForm, RatioForm, TwoPolarForm};
 use affine_runtime::model::{Group, Quantity};
@@ -90,7 +90,7 @@ fn closed_form(lattice: &Lattice<3>, t: f64) -> Lattice<3> {
     let y = Matrix::<3>::from_fn(|a, b| (0.5 * (lattice.q[a] - lattice.q[b])).exp() * z[(a, b)]);
     let rate =
         y * isotropic.inverse_alpha + Matrix::<3>::from_diagonal_element(isotropic.inverse_beta * y.trace());
-    let phi = exponential(&(rate * t)) * Matrix::from_diagonal(&lattice.q.map(f64::exp));
+    let phi = (rate * t).exponential() * Matrix::from_diagonal(&lattice.q.map(f64::exp));
     let here = Affine.at_lattice(lattice).unwrap();
     Affine.lattice(&here.moved(Vector::zeros(), phi, |_| phi.try_inverse().unwrap() * y * phi)).unwrap()
 }

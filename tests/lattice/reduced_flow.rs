@@ -21,7 +21,7 @@ pub(crate) fn start<const N: usize>() -> Lattice<N> {
         }
         matrix
     };
-    let turn = |entries: [f64; 3]| affine_runtime::decompose::skew_exponential(&skew(entries));
+    let turn = |entries: [f64; 3]| skew(entries).skew_exponential();
     Lattice {
         q: Vector::<N>::from_fn(|a, _| [0.9, 0.1, -0.7][a]),
         p: Vector::<N>::from_fn(|a, _| [0.15, -0.3, 0.2][a]),

@@ -1,7 +1,7 @@
 //! Forces and potentials of fields beside metrics: their components are those of the user's bases.
 
 use affine_oracle::{Differential, Kinetic, Place as Where, Random, State, Term, rational};
-use affine_runtime::force::{self, Comoving as OnBody, Force, Motion, Spatial as OnSpace, Translation};
+use affine_runtime::force::{Body as OnBody, Force, Motion, Space as OnSpace, Translation};
 use affine_runtime::model::Conserved;
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
@@ -198,7 +198,7 @@ forced! {
 
 #[test]
 fn the_magnet_has_no_power() {
-    force::check::<2, _>(&Magnet, sampling::motions(8)).unwrap();
+    sampling::check_force::<2, _>(&Magnet, sampling::motions(8)).unwrap();
 }
 
 /// `x_1 phi_12 + phi_21^2`, which no rotation leaves unchanged.

@@ -1,7 +1,6 @@
 //! What is read off a phase point of a model with metrics, against the formulas with the metrics written out.
 
 use affine_oracle::Random;
-use affine_runtime::conserved::evaluate;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
@@ -134,7 +133,7 @@ fn what_is_listed_is_conserved() {
     let listed = run.description().conserved;
     assert!(listed.contains(&Conserved::Vorticity) && listed.contains(&Conserved::Spin), "{listed:?}");
     for quantity in listed.iter().filter(|quantity| **quantity != Conserved::Energy) {
-        let value = |point| evaluate(*quantity, &Body.orthonormal(point)).unwrap();
+        let value = |point| quantity.of(&Body.orthonormal(point)).unwrap();
         let (begin, end) = (value(run.start().1), value(run.end().1));
         let distance = begin.distance(&end);
         assert!(distance < 1e-10 * (1.0 + begin.norm()), "{quantity:?} {distance:e}");

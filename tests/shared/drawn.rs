@@ -177,7 +177,7 @@ pub fn runs<const N: usize, M: Drawn<N>>() {
                 }
             };
             let (_, end) = run.end();
-            let condition = end.phi().norm() * affine_runtime::frames::inverse(end.phi()).norm();
+            let condition = end.phi().norm() * end.phi().inverse().norm();
             let defect = off_the_group(M::CONSTRAINT, &model.orthonormal(end));
             assert!(defect <= ON_THE_GROUP * condition, "{defect:e} at {condition:e}");
             let velocity = model.velocity(&point);

@@ -1,7 +1,7 @@
 //! Forces and potentials that fields compute, and each a second time as forces on the canonical momenta.
 
 use affine_oracle::{Differential, Place as OraclePlace};
-use affine_runtime::force::{Comoving as ComovingForce, Force, Motion, Spatial as SpatialForce, Translation};
+use affine_runtime::force::{Body as OnBody, Force, Motion, Space as OnSpace, Translation};
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -17,7 +17,7 @@ pub struct Stirring {
 }
 
 impl<const N: usize> Force<N> for Stirring {
-    type Form = SpatialForce;
+    type Form = OnSpace;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         let c = T::constant(self.strength, 0.0) * m.t.cos();
         let friction = m.phi_dot * m.phi.transpose();
@@ -33,7 +33,7 @@ pub struct Kneading {
 }
 
 impl<const N: usize> Force<N> for Kneading {
-    type Form = ComovingForce;
+    type Form = OnBody;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         (m.phi.transpose() * m.phi_dot) * T::constant(self.strength, 0.0)
     }
@@ -81,7 +81,7 @@ pub struct Gyroscope {
 }
 
 impl<const N: usize> Force<N> for Gyroscope {
-    type Form = SpatialForce;
+    type Form = OnSpace;
     const GYROSCOPIC: bool = true;
     /// `Q = c phi (phi_dot^T S phi_dot - ..)` would do; here `N = c S phi_dot^T` with a skew `S`, and `Q = phi N`.
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {

@@ -1,6 +1,6 @@
 //! Motions on groups: exponentials stay on them, and kicks are projected.
 
-use affine_runtime::decompose::polar;
+use affine_runtime::decompose::Polar;
 use affine_runtime::prelude::*;
 
 use crate::models::{phi3, spin3};
@@ -89,29 +89,28 @@ pub(crate) fn skew() -> Matrix<3> {
 }
 
 pub(crate) fn rotation() -> Matrix<3> {
-    polar(&phi3()).unwrap().rotation
+    Polar::of(&phi3()).unwrap().rotation
 }
 
 /// Calls a macro with each model, its dimension and its start.
 macro_rules! each_confined {
     ($visit:ident) => {{
         use crate::confined::*;
-        use affine_runtime::kinematics::isochoric_part;
         let start = Top.at_momentum(rotation(), Comoving(skew())).unwrap();
         $visit!("top", 3, &Top, start);
         let model = Tethered { j: oblique() }.prepare().unwrap();
         let start = model.at_momentum(x3(), rotation(), p3(), Comoving(skew())).unwrap();
         $visit!("tethered", 3, &model, start);
         let start = Incompressible
-            .at_momentum(x3(), isochoric_part(&phi3()), p3(), Comoving(traceless(spin3())))
+            .at_momentum(x3(), phi3().isochoric_part(), p3(), Comoving(traceless(spin3())))
             .unwrap();
         $visit!("incompressible", 3, &Incompressible, start);
-        let start = Fibred.at_momentum(isochoric_part(&phi3()), Comoving(traceless(spin3()))).unwrap();
+        let start = Fibred.at_momentum(phi3().isochoric_part(), Comoving(traceless(spin3()))).unwrap();
         $visit!("fibred", 3, &Fibred, start);
         let model = Planar { i: 2.0 }.prepare().unwrap();
-        let start = model.at_momentum(isochoric_part(&phi2()), Comoving(traceless(spin2()))).unwrap();
+        let start = model.at_momentum(phi2().isochoric_part(), Comoving(traceless(spin2()))).unwrap();
         $visit!("planar", 2, &model, start);
-        let start = Spatial3.at_momentum(isochoric_part(&phi3()), Spatial(traceless(spin3()))).unwrap();
+        let start = Spatial3.at_momentum(phi3().isochoric_part(), Spatial(traceless(spin3()))).unwrap();
         $visit!("spatial", 3, &Spatial3, start);
         let start = Conformal
             .at_momentum(1.2 * rotation(), Comoving(skew() + 0.3 * Matrix::<3>::identity()))

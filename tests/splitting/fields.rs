@@ -1,6 +1,6 @@
 //! Pieces besides T and U: kicks by what fields compute, and friction, with their work.
 
-use affine_runtime::force::{Force, Motion, Spatial as SpatialForce, Translation};
+use affine_runtime::force::{Force, Motion, Space, Translation};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 pub(crate) use affine_tests::fields::{Field, Spring, Wall};
@@ -31,7 +31,7 @@ pub(crate) struct Twist {
 }
 
 impl<const N: usize> Force<N> for Twist {
-    type Form = SpatialForce;
+    type Form = Space;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         let c = T::constant(self.strength, 0.0);
         let entry = (0..N).fold(T::zero(), |sum, a| sum + m.phi[(0, a)] * m.phi[(1, a)]);
@@ -46,7 +46,7 @@ impl<const N: usize> Force<N> for Twist {
 pub(crate) struct Squeeze(pub(crate) Twist);
 
 impl<const N: usize> Force<N> for Squeeze {
-    type Form = affine_runtime::force::Comoving;
+    type Form = affine_runtime::force::Body;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         <Twist as Force<N>>::force(&self.0, m)
     }
@@ -198,7 +198,7 @@ macro_rules! each_with_fields {
         $visit!("sticky", 3, &Sticky, start);
         let start = Slowed
             .at_momentum(
-                affine_runtime::decompose::polar(&phi3()).unwrap().rotation,
+                affine_runtime::decompose::Polar::of(&phi3()).unwrap().rotation,
                 Comoving(3.0 * (spin3() - spin3().transpose())),
             )
             .unwrap();

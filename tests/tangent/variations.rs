@@ -243,16 +243,16 @@ fn on_groups() {
     }
     let x = Matrix::<3>::new(0.2, 0.5, -0.3, 0.1, -0.5, 0.7, 0.4, -0.2, 0.3);
     let skew = |m: Matrix<3>| m - m.transpose();
-    let rotation = affine_runtime::decompose::polar(&phi::<3>()).unwrap().rotation;
+    let rotation = affine_runtime::decompose::Polar::of(&phi::<3>()).unwrap().rotation;
     let turned = |s: f64| {
-        let phi = rotation * affine_runtime::decompose::skew_exponential(&(skew(x) * s));
+        let phi = rotation * (skew(x) * s).skew_exponential();
         Top.at_momentum(phi, Comoving(skew(spin::<3>()) + skew(x * x) * s)).unwrap()
     };
     assert_on_group(&Top, turned, |phi, by| (phi.tr_mul(by) + by.tr_mul(phi)).norm());
     let unit = phi::<3>() / phi::<3>().determinant().cbrt();
     let traceless = |m: Matrix<3>| m - Matrix::<3>::identity() * (m.trace() / 3.0);
     let sheared = |s: f64| {
-        let phi = unit * affine_runtime::decompose::exponential(&(x * s));
+        let phi = unit * (x * s).exponential();
         Incompressible.at_momentum(phi, Comoving(traceless(spin()) + traceless(x * x) * s)).unwrap()
     };
     assert_on_group(&Incompressible, sheared, |phi, by| (phi.try_inverse().unwrap() * by).trace());

@@ -1,6 +1,6 @@
 //! Lattices of stretches, by plain arrays: the couplings that do not move, then the state with frames.
 
-use affine_runtime::decompose::skew_exponential;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::frames::{Matrix, Vector};
 use affine_runtime::lattice::{
     Lattice, LatticeForm, LatticePieces, LatticeSplitting, RatioForm, TwoPolarForm,
@@ -30,7 +30,7 @@ fn begun<const N: usize>(balanced: bool) -> Lattice<N> {
         }
         matrix
     };
-    let turn = |entries: [f64; 3]| skew_exponential(&skew(entries));
+    let turn = |entries: [f64; 3]| skew(entries).skew_exponential();
     let q = Vector::<N>::from_fn(|a, _| [0.6, 0.05, -0.5][a]);
     let p = Vector::<N>::from_fn(|a, _| [0.15, -0.3, 0.2][a]);
     let mean = |v: &Vector<N>| if balanced { v.sum() / N as f64 } else { 0.0 };

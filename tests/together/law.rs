@@ -4,6 +4,7 @@ use affine_oracle::{
     Constraint, Differential, Hamiltonian, Invariant, Kinetic, Matrix as Exact, Place, Rational, Slopes,
     State, Term, rational, rounded,
 };
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::frames::Matrix;
 use affine_tests::reference::entries;
 
@@ -105,7 +106,7 @@ impl Law {
             "force" => {
                 let friction = phi_dot * phi.transpose();
                 let along = Matrix::<N>::from_fn(|i, j| (x_dot[i] + x[j]) * phi[(j, 0)] - friction[(i, j)]);
-                affine_runtime::frames::inverse(&phi) * along * (strength * t.cos())
+                phi.inverse() * along * (strength * t.cos())
             }
             "gyroscope" => {
                 let mut skew = Matrix::<N>::zeros();

@@ -1,6 +1,7 @@
 //! A force of positions alone, seen from the body.
 
-use affine_runtime::force::{Comoving, Force, Motion};
+use affine_runtime::decompose::LinearMap;
+use affine_runtime::force::{Body as OnBody, Force, Motion};
 use affine_runtime::frames::Matrix;
 use affine_runtime::scalar::Scalar;
 
@@ -12,7 +13,7 @@ pub(crate) struct Squeeze {
 }
 
 impl<const N: usize> Force<N> for Squeeze {
-    type Form = Comoving;
+    type Form = OnBody;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         let c = T::constant(self.strength, 0.0);
         Matrix::<N, T>::from_fn(|a, b| {
@@ -25,5 +26,5 @@ impl<const N: usize> Force<N> for Squeeze {
 /// The same by numbers, as a force on `Pi`, row by row.
 pub(crate) fn squeezed<const N: usize>(strength: f64, phi: &Matrix<N>) -> Matrix<N> {
     let along = phi.row(0).transpose() * phi.column(1).transpose();
-    (along + Matrix::<N>::identity() * phi[(1, 0)]) * strength * affine_runtime::frames::inverse(phi)
+    (along + Matrix::<N>::identity() * phi[(1, 0)]) * strength * phi.inverse()
 }

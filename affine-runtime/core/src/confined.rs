@@ -6,10 +6,12 @@
 
 use crate::constraint::Constraint;
 use crate::error::{Error, Result};
-use crate::frames::{Frame, Matrix, Momentum, inverse};
+use crate::frames::{Frame, Matrix, Momentum};
 use crate::kinematics::LogDeterminant;
+use crate::matrix::inverse;
+use crate::parts::Translation;
 use crate::scalar::Real;
-use crate::state::{PhasePoint, Translation};
+use crate::state::PhasePoint;
 
 /// How far from a constraint a point may start, in units of the rounding of its entries: what a product of three
 /// matrices and an inverse leave, with some to spare.

@@ -61,40 +61,6 @@ impl Components {
     }
 }
 
-/// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
-/// belongs to the model and not to the point, and for entries that a momentum does not have.
-#[must_use]
-pub fn evaluate<const N: usize, P: Phase<N> + Euclidean>(
-    quantity: Conserved,
-    point: &P,
-) -> Option<Components> {
-    Some(match quantity {
-        Conserved::Energy => return None,
-        Conserved::LinearMomentum => Components::vector(&point.p()),
-        Conserved::ComovingLinearMomentum => Components::vector(&point.p_hat().0.0),
-        Conserved::OrbitalAngularMomentum => Components::skew(&point.orbital_angular_momentum().0.0),
-        Conserved::TotalAffineMomentum => Components::matrix(&point.total_affine_momentum().0.0),
-        Conserved::TotalAngularMomentum => Components::skew(&point.total_angular_momentum().0.0),
-        Conserved::AffineSpin => Components::matrix(&point.sigma().0.0),
-        Conserved::Deviator => Components::matrix(&point.sigma().deviator().0.0),
-        Conserved::Spin => Components::skew(&point.spin().0.0),
-        Conserved::SpinNorm => Components::number(point.spin().norm_squared()),
-        Conserved::ComovingAffineSpin => Components::matrix(&point.sigma_hat().0.0),
-        Conserved::ComovingDeviator => Components::matrix(&point.sigma_hat().deviator().0.0),
-        Conserved::Vorticity => Components::skew(&point.vorticity().0.0),
-        Conserved::VorticityNorm => Components::number(point.vorticity().norm_squared()),
-        Conserved::CanonicalMomentum => Components::matrix(&point.pi().0.0),
-        Conserved::Casimir1 => Components::number(point.casimir(1)),
-        Conserved::Casimir2 => Components::number(point.casimir(2)),
-        Conserved::Casimir3 => Components::number(point.casimir(3)),
-        Conserved::DeviatorCasimir2 => Components::number(point.shear_casimir(2)),
-        Conserved::DeviatorCasimir3 => Components::number(point.shear_casimir(3)),
-        Conserved::Component(component) => Components::number(sum(component, |entry| {
-            Some(*evaluate(entry.of, point)?.as_slice().get(place::<N>(entry)?)?)
-        })?),
-    })
-}
-
 /// The sum of the multiples of what stands for the entries.
 fn sum(component: Component, value: impl Fn(&Entry) -> Option<f64>) -> Option<f64> {
     let each = component.entries.iter().map(|entry| Some(entry.factor as f64 * value(entry)?));
@@ -117,35 +83,67 @@ fn place<const N: usize>(entry: &Entry) -> Option<usize> {
     }
 }
 
-/// The size of what the quantity is made of at a phase point, against which its drift is read: `|Sigma|^2` for
-/// `tr Sigma^2`, `|x| |p| + |Sigma|` for the total affine momentum, so that a quantity that vanishes has a scale
-/// too. `None` for the energy.
-#[must_use]
-pub fn scale<const N: usize, P: Phase<N> + Euclidean>(quantity: Conserved, point: &P) -> Option<f64> {
-    let sigma = || norm(point.sigma().0.0.as_slice());
-    let sigma_hat = || norm(point.sigma_hat().0.0.as_slice());
-    let p = || norm(point.p().as_slice());
-    let orbital = || norm(point.x().as_slice()) * p();
-    Some(match quantity {
-        Conserved::Energy => return None,
-        Conserved::LinearMomentum => p(),
-        Conserved::ComovingLinearMomentum => norm(point.phi().as_slice()) * p(),
-        Conserved::OrbitalAngularMomentum => orbital(),
-        Conserved::TotalAffineMomentum | Conserved::TotalAngularMomentum => orbital() + sigma(),
-        Conserved::AffineSpin | Conserved::Deviator | Conserved::Spin | Conserved::Casimir1 => sigma(),
-        Conserved::SpinNorm | Conserved::Casimir2 | Conserved::DeviatorCasimir2 => square(sigma()),
-        Conserved::Casimir3 | Conserved::DeviatorCasimir3 => sigma() * square(sigma()),
-        Conserved::ComovingAffineSpin | Conserved::ComovingDeviator | Conserved::Vorticity => sigma_hat(),
-        Conserved::VorticityNorm => square(sigma_hat()),
-        Conserved::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
-        Conserved::Component(Component { entries, .. }) => {
-            let each = entries.iter().map(|entry| Some(entry.factor.abs() as f64 * scale(entry.of, point)?));
-            each.sum::<Option<f64>>()?
-        }
-    })
-}
-
 impl Conserved {
+    /// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
+    /// belongs to the model and not to the point, and for entries that a momentum does not have.
+    #[must_use]
+    pub fn of<const N: usize, P: Phase<N> + Euclidean>(self, point: &P) -> Option<Components> {
+        Some(match self {
+            Self::Energy => return None,
+            Self::LinearMomentum => Components::vector(&point.p()),
+            Self::ComovingLinearMomentum => Components::vector(&point.p_hat().0.0),
+            Self::OrbitalAngularMomentum => Components::skew(&point.orbital_angular_momentum().0.0),
+            Self::TotalAffineMomentum => Components::matrix(&point.total_affine_momentum().0.0),
+            Self::TotalAngularMomentum => Components::skew(&point.total_angular_momentum().0.0),
+            Self::AffineSpin => Components::matrix(&point.sigma().0.0),
+            Self::Deviator => Components::matrix(&point.sigma().deviator().0.0),
+            Self::Spin => Components::skew(&point.spin().0.0),
+            Self::SpinNorm => Components::number(point.spin().norm_squared()),
+            Self::ComovingAffineSpin => Components::matrix(&point.sigma_hat().0.0),
+            Self::ComovingDeviator => Components::matrix(&point.sigma_hat().deviator().0.0),
+            Self::Vorticity => Components::skew(&point.vorticity().0.0),
+            Self::VorticityNorm => Components::number(point.vorticity().norm_squared()),
+            Self::CanonicalMomentum => Components::matrix(&point.pi().0.0),
+            Self::Casimir1 => Components::number(point.casimir(1)),
+            Self::Casimir2 => Components::number(point.casimir(2)),
+            Self::Casimir3 => Components::number(point.casimir(3)),
+            Self::DeviatorCasimir2 => Components::number(point.shear_casimir(2)),
+            Self::DeviatorCasimir3 => Components::number(point.shear_casimir(3)),
+            Self::Component(component) => Components::number(sum(component, |entry| {
+                Some(*entry.of.of(point)?.as_slice().get(place::<N>(entry)?)?)
+            })?),
+        })
+    }
+
+    /// The size of what the quantity is made of at a phase point, against which its drift is read: `|Sigma|^2` for
+    /// `tr Sigma^2`, `|x| |p| + |Sigma|` for the total affine momentum, so that a quantity that vanishes has a scale
+    /// too. `None` for the energy.
+    #[must_use]
+    pub fn scale<const N: usize, P: Phase<N> + Euclidean>(self, point: &P) -> Option<f64> {
+        let sigma = || norm(point.sigma().0.0.as_slice());
+        let sigma_hat = || norm(point.sigma_hat().0.0.as_slice());
+        let p = || norm(point.p().as_slice());
+        let orbital = || norm(point.x().as_slice()) * p();
+        Some(match self {
+            Self::Energy => return None,
+            Self::LinearMomentum => p(),
+            Self::ComovingLinearMomentum => norm(point.phi().as_slice()) * p(),
+            Self::OrbitalAngularMomentum => orbital(),
+            Self::TotalAffineMomentum | Self::TotalAngularMomentum => orbital() + sigma(),
+            Self::AffineSpin | Self::Deviator | Self::Spin | Self::Casimir1 => sigma(),
+            Self::SpinNorm | Self::Casimir2 | Self::DeviatorCasimir2 => square(sigma()),
+            Self::Casimir3 | Self::DeviatorCasimir3 => sigma() * square(sigma()),
+            Self::ComovingAffineSpin | Self::ComovingDeviator | Self::Vorticity => sigma_hat(),
+            Self::VorticityNorm => square(sigma_hat()),
+            Self::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
+            Self::Component(Component { entries, .. }) => {
+                let each =
+                    entries.iter().map(|entry| Some(entry.factor.abs() as f64 * entry.of.scale(point)?));
+                each.sum::<Option<f64>>()?
+            }
+        })
+    }
+
     /// The formula.
     #[must_use]
     pub fn symbol(self) -> &'static str {
@@ -243,17 +241,17 @@ mod tests {
             (Conserved::DeviatorCasimir2, &[48.5], 12996.0),
         ];
         for (quantity, components, square_of_scale) in expected {
-            let value = evaluate(quantity, &point()).unwrap();
+            let value = quantity.of(&point()).unwrap();
             assert_eq!(value.as_slice(), components, "{quantity:?}");
-            let scale = scale(quantity, &point()).unwrap();
+            let scale = quantity.scale(&point()).unwrap();
             if square_of_scale.is_nan() {
                 assert!((scale - (50f64.sqrt() + 114f64.sqrt())).abs() < 1e-14, "{quantity:?}");
             } else {
                 assert!((scale * scale / square_of_scale - 1.0).abs() < 1e-14, "{quantity:?}");
             }
         }
-        assert_eq!(evaluate(Conserved::Energy, &point()), None);
-        assert_eq!(scale(Conserved::Energy, &point()), None);
+        assert_eq!(Conserved::Energy.of(&point()), None);
+        assert_eq!(Conserved::Energy.scale(&point()), None);
     }
 
     #[test]
@@ -261,7 +259,7 @@ mod tests {
         // m^2 = [[-1, 8, 2], [-3, 7, 5], [3, 2, 4]]; the deviator is m - 2.
         let m = Matrix::<3>::new(1.0, 2.0, 0.0, -1.0, 3.0, 1.0, 1.0, 0.0, 2.0);
         let point = PhasePoint::<3, Space, Pinned>::new(Matrix::<3>::identity(), m, Pinned);
-        let number = |quantity| evaluate(quantity, &point).unwrap().as_slice().to_vec();
+        let number = |quantity: Conserved| quantity.of(&point).unwrap().as_slice().to_vec();
         assert_eq!(number(Conserved::Casimir1), [6.0]);
         assert_eq!(number(Conserved::Casimir2), [10.0]);
         assert_eq!(number(Conserved::Casimir3), [18.0]);
@@ -278,7 +276,7 @@ mod tests {
             point: &P,
             entries: &'static [Entry],
         ) -> Option<f64> {
-            let value = evaluate(Conserved::Component(Component { symbol: "", entries }), point)?;
+            let value = Conserved::Component(Component { symbol: "", entries }).of(point)?;
             assert_eq!(value.as_slice().len(), 1);
             Some(value.as_slice()[0])
         }
@@ -311,7 +309,7 @@ mod tests {
         assert_eq!(value(&space, const { &[entry(1, Spin, 2, 3)] }), Some(1.0));
         // |Sigma|^2 = 114, |Sigma_hat|^2 = 98.
         let both = const { &[entry(2, Spin, 1, 2), entry(-3, Vorticity, 1, 2)] };
-        let size = scale(Conserved::Component(Component { symbol: "", entries: both }), &point()).unwrap();
+        let size = Conserved::Component(Component { symbol: "", entries: both }).scale(&point()).unwrap();
         assert!((size - (2.0 * 114f64.sqrt() + 3.0 * 98f64.sqrt())).abs() < 1e-13, "{size}");
     }
 
@@ -321,7 +319,7 @@ mod tests {
             let Centre { x, p } = Centre { x: point().x(), p: point().p() };
             let other = PhasePoint::<2, F, _>::new(*point().phi(), stored, Centre { x, p });
             for quantity in [Conserved::AffineSpin, Conserved::Vorticity, Conserved::CanonicalMomentum] {
-                let (a, b) = (evaluate(quantity, &other).unwrap(), evaluate(quantity, &point()).unwrap());
+                let (a, b) = (quantity.of(&other).unwrap(), quantity.of(&point()).unwrap());
                 assert!(a.distance(&b) < 1e-14, "{quantity:?}");
             }
         }

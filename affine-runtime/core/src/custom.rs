@@ -2,8 +2,8 @@
 
 mod in_bases;
 
-use crate::force::{Comoving, Force, Form, Motion, Spatial, Translation};
-use crate::frames::{Matrix, Vector};
+use crate::force::{Force, Form, Motion, Translation};
+use crate::frames::{Body, Matrix, Space, Vector};
 use crate::potential::{Place, Potential, Slopes};
 use crate::scalar::Scalar;
 
@@ -61,7 +61,7 @@ fn asked<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
 
 /// `Q`.
 #[inline]
-pub fn spatial_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Spatial>>(
+pub fn spatial_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Space>>(
     force: &F,
     told: Told<N, T>,
 ) -> Rows<N, T> {
@@ -70,7 +70,7 @@ pub fn spatial_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force
 
 /// `Q_hat`.
 #[inline]
-pub fn comoving_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Comoving>>(
+pub fn comoving_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Body>>(
     force: &F,
     told: Told<N, T>,
 ) -> Rows<N, T> {

@@ -7,8 +7,11 @@
 //!
 //! (balance laws (3.1), (4.9), (4.11) of Slawianowski et al.).
 
-use crate::frames::{Matrix, Vector, inverse};
+use crate::frames::{Matrix, Vector};
+use crate::matrix::inverse;
 use crate::scalar::Scalar;
+
+pub use crate::frames::{Body, Space};
 
 /// What a force is told: a placement and its velocity at a time, in the bases that the user states the model in, whatever
 /// its metrics; there it answers.
@@ -52,10 +55,10 @@ pub struct Motion<const N: usize, T = f64> {
     note = "implement `affine_runtime::force::Force<{N}>` for the type of the field that `forces = custom(..)` names"
 )]
 pub trait Force<const N: usize> {
-    /// Which force it is: [`Spatial`], [`Comoving`] or [`Translation`]; the specification says the same.
+    /// What it acts on: [`Space`], [`Body`] or [`Translation`]; the specification says the same.
     type Form: Form<N>;
     /// It has no power, whatever the motion: `tr(Q Omega) = 0`, `Q_tr . x_dot = 0`. The specification then says
-    /// `gyroscopic`, and the energy stays conserved; `check` beside it in `affine_runtime` looks whether it is true.
+    /// `gyroscopic`, and the energy stays conserved; `sampling::check_force` of `affine_runtime` looks whether it is true.
     const GYROSCOPIC: bool = false;
 
     /// The force.
@@ -63,6 +66,12 @@ pub trait Force<const N: usize> {
 }
 
 /// The momentum that a force acts on.
+///
+/// | form | in the specification | the force | acts on |
+/// |---|---|---|---|
+/// | [`Space`] | `spatial` | `Q`, an `N` by `N` matrix | `Sigma` |
+/// | [`Body`] | `comoving` | `Q_hat`, an `N` by `N` matrix | `Sigma_hat` |
+/// | [`Translation`] | `translation` | `Q_tr`, an `N`-vector | `p` |
 pub trait Form<const N: usize>: sealed::Sealed {
     /// A matrix or a vector.
     type Value<T: Scalar>;
@@ -74,24 +83,16 @@ pub trait Form<const N: usize>: sealed::Sealed {
 
 mod sealed {
     pub trait Sealed {}
-    impl Sealed for super::Spatial {}
-    impl Sealed for super::Comoving {}
+    impl Sealed for super::Space {}
+    impl Sealed for super::Body {}
     impl Sealed for super::Translation {}
 }
 
-/// `spatial`: `Q`, an `N` by `N` matrix that acts on `Sigma`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Spatial;
-
-/// `comoving`: `Q_hat`, an `N` by `N` matrix that acts on `Sigma_hat`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Comoving;
-
-/// `translation`: `Q_tr`, a vector that acts on `p`.
+/// A force on the centre of mass, `translation`: a vector that acts on `p`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Translation;
 
-impl<const N: usize> Form<N> for Spatial {
+impl<const N: usize> Form<N> for Space {
     type Value<T: Scalar> = Matrix<N, T>;
 
     fn power(force: &Matrix<N>, motion: &Motion<N>) -> (f64, f64) {
@@ -100,7 +101,7 @@ impl<const N: usize> Form<N> for Spatial {
     }
 }
 
-impl<const N: usize> Form<N> for Comoving {
+impl<const N: usize> Form<N> for Body {
     type Value<T: Scalar> = Matrix<N, T>;
 
     fn power(force: &Matrix<N>, motion: &Motion<N>) -> (f64, f64) {

@@ -4,7 +4,8 @@
 //! not compile. Index conventions: `phi[(i, A)]` with the space index first; the canonical momentum
 //! `Pi[(A, i)]` is conjugate to `phi[(i, A)]`, so that the pairing is `tr(Pi phi_dot)`.
 
-pub use crate::matrix::{Matrix, Vector, inverse};
+use crate::matrix::inverse;
+pub use crate::matrix::{Matrix, Vector};
 use crate::metrics::Bases;
 use crate::scalar::Real;
 
@@ -154,23 +155,6 @@ pub trait Momentum<const N: usize, T: Real> {
     type Frame: Frame;
     /// The matrix.
     fn matrix(self) -> Matrix<N, T>;
-}
-
-/// A vector of the centre of mass: its position `x`, its velocity `x_dot`, its momentum `p`.
-#[diagnostic::on_unimplemented(
-    message = "this is no vector of the centre of mass, `x`, `x_dot` or `p`, in dimension {N}",
-    label = "no vector of the centre of mass",
-    note = "a body with translation has `at_velocity(x, phi, x_dot, phi_dot)` and `at_momentum(x, phi, p, spin)`"
-)]
-pub trait OfCentre<const N: usize> {
-    /// The vector.
-    fn vector(self) -> Vector<N>;
-}
-
-impl<const N: usize> OfCentre<N> for Vector<N> {
-    fn vector(self) -> Vector<N> {
-        self
-    }
 }
 
 macro_rules! momentum {

@@ -5,7 +5,7 @@
 
 mod collapse;
 
-use crate::decompose::{exponential, skew_exponential};
+use crate::decompose::exponential::{exponential, skew_exponential};
 use crate::frames::{Matrix, Vector};
 use crate::norm::norm;
 use crate::state::Phase;
@@ -16,15 +16,15 @@ pub struct Geodesic<const N: usize> {
     /// Time of the start.
     pub t0: f64,
     /// The motion of the placement.
-    pub motion: Motion<N>,
+    pub motion: Orbit<N>,
     /// Constant velocity of the centre of mass; zero for a body at rest.
     pub drift: Vector<N>,
 }
 
-/// How the placement moves along a closed-form trajectory, `t` counted from the start.
+/// How the placement moves along a closed-form trajectory, on an orbit of one-parameter groups; `t` is counted from the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Motion<const N: usize> {
+pub enum Orbit<const N: usize> {
     /// `phi(t) = phi0 exp(t stretch) exp(t whirl)`: spatially affine models; `whirl` is skew, `None` where it
     /// vanishes.
     Body {
@@ -62,10 +62,10 @@ impl<const N: usize> Geodesic<N> {
     #[must_use]
     pub fn rate(&self) -> f64 {
         match &self.motion {
-            Motion::Body { stretch, whirl } | Motion::Space { stretch, whirl } => {
+            Orbit::Body { stretch, whirl } | Orbit::Space { stretch, whirl } => {
                 norm(stretch.as_slice()) + whirl.as_ref().map_or(0.0, |whirl| norm(whirl.as_slice()))
             }
-            Motion::Straight { .. } => 0.0,
+            Orbit::Straight { .. } => 0.0,
         }
     }
 
@@ -82,14 +82,14 @@ impl<const N: usize> Geodesic<N> {
     }
 
     /// The affine spin at time `t` of the trajectory that has the spin `start` at `t0`, in the frame of the
-    /// motion: see [`Motion::spin`].
+    /// motion: see [`Orbit::spin`].
     #[must_use]
     pub fn spin(&self, t: f64, start: &Matrix<N>) -> Matrix<N> {
         self.motion.spin(t - self.t0, start)
     }
 }
 
-impl<const N: usize> Motion<N> {
+impl<const N: usize> Orbit<N> {
     /// The placement after the time `elapsed`, from the placement `start`; the formula stands with each
     /// variant.
     #[must_use]

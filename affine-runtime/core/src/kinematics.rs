@@ -7,8 +7,8 @@
 //! |---|---|---|
 //! | `Spatial<AffineVelocity>` `Omega` | `Comoving<AffineVelocity>` `Omega_hat` | `TwoPoint<AffineVelocity>` `phi_dot` |
 //! | `Spatial<AffineSpin>` `Sigma` | `Comoving<AffineSpin>` `Sigma_hat` | `TwoPoint<AffineSpin>` `Pi` |
-//! | `Spatial<CauchyTensor>` `C` | `Comoving<GreenTensor>` `G` | |
-//! | `Spatial<InverseCauchyTensor>` `C^-1` | `Comoving<InverseGreenTensor>` `G^-1` | |
+//! | `Spatial<DeformationTensor>` `C` | `Comoving<DeformationTensor>` `G` | |
+//! | `Spatial<InverseDeformationTensor>` `C^-1` | `Comoving<InverseDeformationTensor>` `G^-1` | |
 //! | `Spatial<Strain>` `e` | `Comoving<Strain>` `E` | |
 //! | `Spatial<AngularMomentum>` `S`, `x p^T - p x^T` | `Comoving<Vorticity>` `Vort` | |
 //! | `Spatial<AffineMomentum>` `x p^T`, `I(O)` | | |
@@ -82,18 +82,16 @@
 //! }
 //! ```
 
-mod deformation;
+pub(crate) mod deformation;
 pub(crate) mod dilatation;
 mod momenta;
 mod sums;
 mod velocities;
 
-pub use deformation::{
-    CauchyTensor, GreenTensor, InertialQuadrupole, InverseCauchyTensor, InverseGreenTensor, Strain,
-    characteristic_invariants,
-};
+use deformation::characteristic_invariants;
+pub use deformation::{DeformationTensor, InertialQuadrupole, InverseDeformationTensor, Strain};
 pub(crate) use dilatation::{LogDeterminant, integer};
-pub use dilatation::{dilatation, isochoric_part, mean_log_stretch};
+use dilatation::{dilatation, isochoric_part, mean_log_stretch};
 pub use momenta::{AffineMomentum, AngularMomentum, LinearMomentum, Vorticity};
 pub use velocities::LinearVelocity;
 
@@ -118,32 +116,32 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     }
 
     /// Green deformation tensor `G = phi^T phi`.
-    fn green(&self) -> Comoving<GreenTensor<N, T>>
+    fn green(&self) -> Comoving<DeformationTensor<N, T>>
     where
         Self: Euclidean,
     {
-        GreenTensor::of(self.phi())
+        DeformationTensor::green(self.phi())
     }
     /// Inverse Green deformation tensor `G^-1 = phi^-1 phi^-T`.
-    fn green_inverse(&self) -> Comoving<InverseGreenTensor<N, T>>
+    fn green_inverse(&self) -> Comoving<InverseDeformationTensor<N, T>>
     where
         Self: Euclidean,
     {
-        InverseGreenTensor::of(self.phi())
+        InverseDeformationTensor::green(self.phi())
     }
     /// Cauchy deformation tensor `C = phi^-T phi^-1`.
-    fn cauchy(&self) -> Spatial<CauchyTensor<N, T>>
+    fn cauchy(&self) -> Spatial<DeformationTensor<N, T>>
     where
         Self: Euclidean,
     {
-        CauchyTensor::of(self.phi())
+        DeformationTensor::cauchy(self.phi())
     }
     /// Inverse Cauchy deformation tensor `C^-1 = phi phi^T`.
-    fn cauchy_inverse(&self) -> Spatial<InverseCauchyTensor<N, T>>
+    fn cauchy_inverse(&self) -> Spatial<InverseDeformationTensor<N, T>>
     where
         Self: Euclidean,
     {
-        InverseCauchyTensor::of(self.phi())
+        InverseDeformationTensor::cauchy(self.phi())
     }
     /// Lagrange (Green) strain `E = (G - 1)/2`.
     fn lagrange_strain(&self) -> Comoving<Strain<N, T>>
@@ -173,7 +171,7 @@ pub trait Kinematics<const N: usize, T: Real = f64>: Phase<N, T> {
     {
         mean_log_stretch(self.phi())
     }
-    /// Dilatation `D = exp(q)`; see [`dilatation`].
+    /// Dilatation `D = exp(q)`; see [`dilatation`](crate::decompose::dilatation).
     fn dilatation(&self) -> T
     where
         Self: Euclidean,

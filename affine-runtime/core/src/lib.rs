@@ -30,6 +30,7 @@ pub mod model;
 mod norm;
 mod packed;
 pub mod parametric;
+mod parts;
 pub mod potential;
 mod private;
 mod quantity;

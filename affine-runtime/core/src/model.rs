@@ -278,16 +278,3 @@ impl<const N: usize, M: Model<N> + Clone> Handle<N> for Owned<M> {
         &self.0
     }
 }
-
-/// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
-/// Hamiltonian asks of it in vain; nothing implements it.
-#[diagnostic::on_unimplemented(
-    message = "the velocity does not determine the momentum of `{Self}`",
-    label = "no Legendre transformation from velocities",
-    note = "with `casimir3` the velocity is quadratic in the momentum: several momenta, or none, have a given velocity",
-    note = "use `at_momentum`; `velocity()` gives the velocity of a phase point"
-)]
-pub trait VelocityDeterminesMomentum {
-    /// What follows from it.
-    fn never<T>(&self) -> T;
-}

@@ -51,7 +51,7 @@ impl Class {
 
 /// A potential energy as a function of the placement.
 ///
-/// Written once for all numbers. `check` beside it in `affine_runtime` holds class and derivatives against samples.
+/// Written once for all numbers. `sampling::check_potential` of `affine_runtime` holds class and derivatives against samples.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` computes no potential in dimension {N}",
     label = "no potential here",

@@ -12,16 +12,16 @@ pub use crate::custom::{
     potential_energy_in, potential_slopes, potential_slopes_in, rows, spatial_force, spatial_force_in,
     translational_force, translational_force_in,
 };
-pub use crate::decompose::{log_stretches, principal_log_stretches, principal_stretches, skew_exponential};
+pub use crate::decompose::{
+    dilatation, inverse, isochoric_part, log_stretches, mean_log_stretch, principal_log_stretches,
+    principal_stretches, skew_exponential,
+};
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::divisor::{Divisor, over};
 pub use crate::error::Result;
-pub use crate::force;
-pub use crate::frames::{
-    Body, Canonical, Comoving, Matrix, Momentum, OfCentre, Space, Spatial, TwoPoint, Vector, inverse,
-};
-pub use crate::geodesic::{Geodesic, Motion};
-pub use crate::kinematics::{dilatation, dilatation::far_from_undeformed, isochoric_part, mean_log_stretch};
+pub use crate::frames::{Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector};
+pub use crate::geodesic::{Geodesic, Orbit as Motion};
+pub use crate::kinematics::dilatation::far_from_undeformed;
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::matrix_field::symmetric_part;
 pub use crate::metrics::forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
@@ -29,23 +29,29 @@ pub use crate::metrics::quantities::{form_in_given_bases, inverse_in_given_bases
 pub use crate::metrics::{Bases, orthonormal};
 pub use crate::model::{
     Bound, Component, Conserved, Constraint, Description, Entry, Formula, Group, Guard, Handle, LeftOut,
-    Model, Operations, Quantity, Regularity, Scope, Velocity, VelocityDeterminesMomentum,
+    Model, Operations, Quantity, Regularity, Scope, Velocity,
 };
 pub use crate::packed::{Four, Packed};
 pub use crate::parametric::{Field, Fields, Parametric};
+pub use crate::parts::{Given, OfCentre};
 pub use crate::reduction::{
     Condition, finite, finite_fields, from_shear_and_turn, inverse_form, principal_axes, shear_and_turn,
     total_affine_momentum, total_size, turn, well_posed,
 };
 pub use crate::regularity::regular;
 pub use crate::scalar::{Real, Scalar};
-pub use crate::state::{Centre, Given, Phase, PhasePoint, Pinned};
+pub use crate::state::{Centre, Phase, PhasePoint, Pinned};
 pub use crate::system::{Packing, Pieces, SecondOrder, Series, Unconstrained};
-pub use crate::unprepared::{IsPrepared, NotPrepared, Unprepared};
+pub use crate::unprepared::{IsPrepared, NotPrepared, Unprepared, VelocityDeterminesMomentum};
 pub use crate::vectors::Vectors;
 
 use crate::frames::Frame;
-use crate::state::{Basis, Translation};
+use crate::parts::{Basis, Translation};
+
+/// Forms of forces, by the names of the specification.
+pub mod force {
+    pub use crate::force::{Body as Comoving, Space as Spatial, Translation};
+}
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
 ///

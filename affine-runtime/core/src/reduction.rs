@@ -2,7 +2,7 @@
 
 use crate::error::{Error, IllPosed, Result, UnitVelocity};
 use crate::frames::{Matrix, Vector};
-use crate::geodesic::Motion;
+use crate::geodesic::Orbit;
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -42,26 +42,26 @@ fn rotate_into<const N: usize, T: Real>(turn: &mut Matrix<N, T>, i: usize, k: us
     }
 }
 
-impl<const N: usize> Motion<N> {
+impl<const N: usize> Orbit<N> {
     /// The closed form in the co-moving frame from `Sigma_hat` and `[1/alpha, 1/beta, 1/mu]`.
     #[must_use]
     pub fn body(spin: &Matrix<N>, inverse: [f64; 3]) -> Self {
         let (stretch, whirl) = generators(spin, inverse);
-        Motion::Body { stretch, whirl }
+        Orbit::Body { stretch, whirl }
     }
 
     /// The closed form in the spatial frame from `Sigma` and `[1/alpha, 1/beta, 1/mu]`.
     #[must_use]
     pub fn space(spin: &Matrix<N>, inverse: [f64; 3]) -> Self {
         let (stretch, whirl) = generators(spin, inverse);
-        Motion::Space { stretch, whirl }
+        Orbit::Space { stretch, whirl }
     }
 
     /// The same with `C(3)/3` in the Hamiltonian, `X^2` in the velocity: it commutes with `X` and adds `casimir3 X^2`
     /// to the stretch.
     #[must_use]
     pub fn with_square(mut self, spin: &Matrix<N>, casimir3: f64) -> Self {
-        if let Motion::Body { stretch, .. } | Motion::Space { stretch, .. } = &mut self {
+        if let Orbit::Body { stretch, .. } | Orbit::Space { stretch, .. } = &mut self {
             *stretch += spin * spin * casimir3;
         }
         self
@@ -70,7 +70,7 @@ impl<const N: usize> Motion<N> {
     /// The straight line with the velocity `phi_dot0`.
     #[must_use]
     pub fn straight(velocity: Matrix<N>) -> Self {
-        Motion::Straight { velocity }
+        Orbit::Straight { velocity }
     }
 }
 

@@ -13,27 +13,10 @@ use crate::error::{Error, Result};
 use crate::frames::{AffineSpin, Comoving, Frame, Matrix, Momentum, Spatial, TwoPoint, Vector};
 use crate::kinematics::{LinearMomentum, LogDeterminant};
 use crate::metrics::Bases;
+use crate::parts::{Basis, Translation};
 use crate::scalar::Real;
 
-/// What a phase point carries besides placement and affine spin: nothing ([`Pinned`]) or the centre of mass
-/// ([`Centre`]).
-pub trait Translation<const N: usize, T: Real>: Copy + Debug + PartialEq {
-    /// Position of the centre of mass; zero for a pinned body.
-    fn position(&self) -> Vector<N, T>;
-    /// Linear momentum `p = dT/dx_dot`, a spatial covector; zero for a pinned body.
-    fn momentum(&self) -> Vector<N, T>;
-    /// The same momentum at another position; a pinned body stays.
-    #[must_use]
-    fn moved(&self, x: Vector<N, T>) -> Self {
-        self.replaced(x, self.momentum())
-    }
-    /// The same at another position and with another momentum; a pinned body stays.
-    #[must_use]
-    fn replaced(&self, x: Vector<N, T>, p: Vector<N, T>) -> Self;
-    /// The same in another basis of space: `x' = A x`, `p' = A^-T p`; a pinned body stays.
-    #[must_use]
-    fn rebased(&self, bases: &Bases<N, T>) -> Self;
-}
+pub use crate::parts::Orthonormal;
 
 /// No translation: the model has neither `x` nor `p`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,27 +59,6 @@ impl<const N: usize, T: Real> Translation<N, T> for Centre<N, T> {
     fn rebased(&self, bases: &Bases<N, T>) -> Self {
         Self { x: bases.space * self.x, p: bases.space_inverse.tr_mul(&self.p) }
     }
-}
-
-/// The bases of space and body that the components of a phase point belong to: [`Orthonormal`] or [`Given`].
-pub trait Basis: Copy + Debug + PartialEq + Send + Sync + sealed::Sealed + 'static {}
-
-/// Orthonormal bases: both metrics are the identity, transposes and norms are the plain ones.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orthonormal;
-
-/// The bases in which a model states its `metrics(...)`: the metrics are `g` and `eta`, which the model knows and the
-/// point does not.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given;
-
-impl Basis for Orthonormal {}
-impl Basis for Given {}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::Orthonormal {}
-    impl Sealed for super::Given {}
 }
 
 /// A phase point in orthonormal bases: what the deformation tensors, the spin and the stretches are read off.

@@ -5,8 +5,9 @@ use crate::frames::{Body, Matrix, Vector};
 use crate::geodesic::Geodesic;
 use crate::metrics::Bases;
 use crate::model::{Description, Model, Regularity, Velocity};
+use crate::parts::Translation;
 use crate::scalar::{Real, Scalar};
-use crate::state::{PhasePoint, Translation};
+use crate::state::PhasePoint;
 
 /// A struct with fields that `prepare()` makes a model of dimension `N`; implemented by the macro alone.
 ///
@@ -48,6 +49,19 @@ pub trait Unprepared<const N: usize> {}
             `let model = {Self} {{ .. }}.prepare()?;`"
 )]
 pub trait IsPrepared {
+    /// What follows from it.
+    fn never<T>(&self) -> T;
+}
+
+/// A model whose momenta are a function of the velocities, as the `at_velocity` of a model with `C(3)` in its
+/// Hamiltonian asks of it in vain; nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "the velocity does not determine the momentum of `{Self}`",
+    label = "no Legendre transformation from velocities",
+    note = "with `casimir3` the velocity is quadratic in the momentum: several momenta, or none, have a given velocity",
+    note = "use `at_momentum`; `velocity()` gives the velocity of a phase point"
+)]
+pub trait VelocityDeterminesMomentum {
     /// What follows from it.
     fn never<T>(&self) -> T;
 }

@@ -38,16 +38,13 @@ use fused::InLane;
 #[repr(align(64))]
 pub struct Several<S, const LANES: usize>([f64; LANES], PhantomData<S>);
 
-/// Eight doubles.
+/// Eight doubles, the lanes that an `Ensemble` takes: one vector of AVX-512, two of AVX2. Of sixteen lanes the stages of a
+/// step hardly fit into the nearest cache, and with AVX2 a right-hand side of the size of P2 no longer into the registers.
 pub type F64x8 = Several<f64, 8>;
 /// Sixteen doubles.
 pub type F64x16 = Several<f64, 16>;
 /// Eight doubles with fast elementary functions.
 pub type FastF64x8 = Several<Fast, 8>;
-
-/// The lanes that an `Ensemble` takes: one vector of AVX-512, two of AVX2. Of sixteen lanes the stages of a
-/// step hardly fit into the nearest cache, and with AVX2 a right-hand side of the size of P2 no longer into the registers.
-pub type Widest = F64x8;
 
 impl<S: Real, const LANES: usize> Several<S, LANES> {
     #[inline(always)]

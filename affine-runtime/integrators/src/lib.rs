@@ -35,7 +35,7 @@ pub use rattle::Rattle;
 pub use runge_kutta::{RungeKutta5, RungeKutta8};
 pub use splitting::{AdaptiveSplitting, Splitting};
 pub use taylor::Taylor;
-pub use widest::{FusedArithmetic, fused_arithmetic};
+pub use widest::FusedArithmetic;
 
 use core::fmt;
 

@@ -3,7 +3,7 @@
 //! On x86-64 the default target has vectors of two doubles and instructions that overwrite an operand. What goes
 //! through [`widest`] is compiled a second time for AVX2 and runs so where the processor, asked once, has it. No sum is
 //! reordered. A multiply-add of vectors is rounded once there, and twice by a processor without: that is the one thing by which
-//! machines differ, and [`fused_arithmetic`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
+//! machines differ, and [`FusedArithmetic::here`] tells it. A target that promises AVX2 takes the same copies, which name their vectors:
 //! what leaves them to the compiler keeps them in memory.
 
 use core::fmt;
@@ -39,13 +39,15 @@ impl fmt::Display for FusedArithmetic {
     }
 }
 
-/// Where multiply-adds are fused on this processor, by code that is compiled as this is.
-#[must_use]
-pub fn fused_arithmetic() -> FusedArithmetic {
-    match (IS_FUSED, has_fused_vectors()) {
-        (true, _) => FusedArithmetic::Everywhere,
-        (false, true) => FusedArithmetic::InVectors,
-        (false, false) => FusedArithmetic::Nowhere,
+impl FusedArithmetic {
+    /// Where multiply-adds are fused on this processor, by code that is compiled as this is.
+    #[must_use]
+    pub fn here() -> Self {
+        match (IS_FUSED, has_fused_vectors()) {
+            (true, _) => Self::Everywhere,
+            (false, true) => Self::InVectors,
+            (false, false) => Self::Nowhere,
+        }
     }
 }
 
@@ -175,7 +177,7 @@ mod tests {
     #[test]
     fn a_multiply_add_of_wider_vectors_is_rounded_once() {
         let sums = Sums([0.1, 1.0 / 3.0, -0.7, 0.9]);
-        let expected = match fused_arithmetic() {
+        let expected = match FusedArithmetic::here() {
             FusedArithmetic::Nowhere => sums.run(Portable),
             FusedArithmetic::InVectors | FusedArithmetic::Everywhere => sums.run(ByTheLibrary),
         };

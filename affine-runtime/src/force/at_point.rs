@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use affine_core::force::{Comoving, Force, Motion, Spatial, Translation};
+use affine_core::force::{Body, Force, Motion, Space, Translation};
 
 use crate::frames::{Matrix, Vector};
 use crate::scalar::Scalar;
@@ -21,15 +21,15 @@ pub trait PointForce<const N: usize> {
 ///
 /// ```text
 /// Translation:  Q_tr  = f                  on p
-/// Spatial:      Q     = (phi a) f^T        on Sigma
-/// Comoving:     Q_hat = a (phi^T f)^T      on Sigma_hat
+/// Space:        Q     = (phi a) f^T        on Sigma
+/// Body:         Q_hat = a (phi^T f)^T      on Sigma_hat
 /// ```
 ///
 /// (the dipole of forces of Slawianowski et al., section 3). A body whose centre is free feels the first with one of the others,
 /// in two fields; of the others that of its own frame costs less. A body whose centre is fixed feels one of the others alone.
 ///
 /// ```
-/// use affine_runtime::force::{AtPoint, PointForce, Spatial, Translation};
+/// use affine_runtime::force::{AtPoint, PointForce, Space, Translation};
 /// use affine_runtime::prelude::*;
 /// use affine_runtime::scalar::Scalar;
 ///
@@ -57,7 +57,7 @@ pub trait PointForce<const N: usize> {
 /// #[derive(Clone)]
 /// struct Table {
 ///     press: Feet<Translation>,
-///     turn: Feet<Spatial>,
+///     turn: Feet<Space>,
 /// }
 ///
 /// let ground = Ground { stiffness: 400.0 };
@@ -132,16 +132,16 @@ impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint
     }
 }
 
-impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint<N, F, Spatial, POINTS> {
-    type Form = Spatial;
+impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint<N, F, Space, POINTS> {
+    type Form = Space;
 
     fn force<T: Scalar>(&self, motion: &Motion<N, T>) -> Matrix<N, T> {
         self.dipole(motion, |force, _, arm| [*arm, *force])
     }
 }
 
-impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint<N, F, Comoving, POINTS> {
-    type Form = Comoving;
+impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint<N, F, Body, POINTS> {
+    type Form = Body;
 
     fn force<T: Scalar>(&self, motion: &Motion<N, T>) -> Matrix<N, T> {
         self.dipole(motion, |force, a, _| [*a, carried(&motion.phi.transpose(), force)])

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 
-use crate::decompose::{TwoPolar, two_polar};
+use crate::decompose::TwoPolar;
 use crate::frames::{Matrix, Vector};
 use crate::simulate::Trajectory;
 use crate::state::Phase;
@@ -57,7 +57,7 @@ pub(super) fn factors<const N: usize>(frames: &[Frame<N>]) -> Option<Vec<Factors
 fn continued<const N: usize>(frames: &[Frame<N>]) -> Option<Vec<TwoPolar<N>>> {
     let mut all: Vec<TwoPolar<N>> = Vec::with_capacity(frames.len());
     for frame in frames {
-        all.push(two_polar(&frame.phi).ok()?);
+        all.push(TwoPolar::of(&frame.phi).ok()?);
     }
     let apart = |found: &TwoPolar<N>| {
         let ratios = (1..N).map(|a| found.stretches[a - 1] / found.stretches[a]);

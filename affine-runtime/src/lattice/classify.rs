@@ -75,42 +75,42 @@ pub enum Dilatation {
 }
 
 impl MotionClass {
+    /// The class of the motion through a phase point by the exact criterion; `None` where there is none: for d'Alembert's
+    /// model, whose free motions are straight lines, and for potentials of more than `q = ln(det phi)/n`.
+    #[must_use]
+    pub fn of<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<Self> {
+        let isotropic = model.isotropic()?;
+        let point = model.orthonormal(point);
+        let p_dil = point.dilatational_momentum();
+        let n = N as f64;
+        let dilatation = match M::LATTICE.potential {
+            PotentialClass::Stretches => return None,
+            // To rounding: the momentum may have come from another frame.
+            PotentialClass::None if p_dil.abs() <= ROUNDING * f64::EPSILON * point.mixed_spin().norm() => {
+                Dilatation::Still
+            }
+            PotentialClass::None => {
+                Dilatation::Uniform { rate: p_dil * (isotropic.inverse_alpha / n + isotropic.inverse_beta) }
+            }
+            PotentialClass::Dilatation => confinement(model, point.mean_log_stretch(), p_dil, &isotropic),
+        };
+        let whirl = match isotropic.side {
+            MetricSide::Body => point.vorticity().norm_squared(),
+            MetricSide::Space => point.spin().norm_squared(),
+        };
+        Some(Self {
+            shear: growth(&point.mixed_spin(), isotropic.inverse_alpha),
+            whirl: (libm::sqrt(whirl) * isotropic.inverse_mu).abs(),
+            dilatation,
+        })
+    }
+
     /// Is `phi` bounded, and bounded away from singular matrices, for all times?
     #[must_use]
     pub fn is_bounded(&self) -> bool {
         let confined = matches!(self.dilatation, Dilatation::Still | Dilatation::Confined { .. });
         confined && matches!(self.shear, Growth::Bounded { .. })
     }
-}
-
-/// The class of the motion through a phase point by the exact criterion; `None` where there is none: for d'Alembert's
-/// model, whose free motions are straight lines, and for potentials of more than `q = ln(det phi)/n`.
-#[must_use]
-pub fn classify<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<MotionClass> {
-    let isotropic = model.isotropic()?;
-    let point = model.orthonormal(point);
-    let p_dil = point.dilatational_momentum();
-    let n = N as f64;
-    let dilatation = match M::LATTICE.potential {
-        PotentialClass::Stretches => return None,
-        // To rounding: the momentum may have come from another frame.
-        PotentialClass::None if p_dil.abs() <= ROUNDING * f64::EPSILON * point.mixed_spin().norm() => {
-            Dilatation::Still
-        }
-        PotentialClass::None => {
-            Dilatation::Uniform { rate: p_dil * (isotropic.inverse_alpha / n + isotropic.inverse_beta) }
-        }
-        PotentialClass::Dilatation => confinement(model, point.mean_log_stretch(), p_dil, &isotropic),
-    };
-    let whirl = match isotropic.side {
-        MetricSide::Body => point.vorticity().norm_squared(),
-        MetricSide::Space => point.spin().norm_squared(),
-    };
-    Some(MotionClass {
-        shear: growth(&point.mixed_spin(), isotropic.inverse_alpha),
-        whirl: (libm::sqrt(whirl) * isotropic.inverse_mu).abs(),
-        dilatation,
-    })
 }
 
 /// The growth of `exp(t sigma/alpha)`, `sigma` the traceless part of a matrix.

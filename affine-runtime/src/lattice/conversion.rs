@@ -1,7 +1,7 @@
 //! Between phase points and lattices, and between lattices and the arrays that integrators step.
 
 use super::{Lattice, LatticeForm, Variables};
-use crate::decompose::two_polar;
+use crate::decompose::TwoPolar;
 use crate::error::{Error, Result};
 use crate::frames::{Body, Canonical, Frame, Matrix, Space, Vector};
 use crate::model::StateVector;
@@ -46,7 +46,7 @@ pub(crate) fn lattice_of<const N: usize, F: LatticeFrame>(
     before: Option<&Lattice<N>>,
 ) -> Result<Lattice<N>> {
     let axes = match before {
-        None => two_polar(phi)?,
+        None => TwoPolar::of(phi)?,
         Some(lattice) => lattice.two_polar().continued(phi)?,
     };
     let q = axes.log_stretches();

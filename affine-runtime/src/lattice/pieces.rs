@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::{Lattice, LatticeForm, LatticeStop, MetricSide, StopReason, Variables};
-use crate::decompose::skew_exponential;
+use crate::decompose::LinearMap;
 use crate::error::Error;
 use crate::frames::Matrix;
 use crate::inner::accumulate;
@@ -217,7 +217,7 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
     fn lattice_at(&self, t: f64, state: &M::Framed<f64>) -> Lattice<N> {
         let mut lattice = Lattice::from_framed::<M>(&self.couplings, state);
         if let Some((generator, side)) = &self.whirl {
-            let turn = skew_exponential(&(generator * (t - self.t0)));
+            let turn = (generator * (t - self.t0)).skew_exponential();
             let frame = match side {
                 MetricSide::Body => &mut lattice.right,
                 MetricSide::Space => &mut lattice.left,

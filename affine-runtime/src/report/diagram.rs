@@ -41,25 +41,14 @@ pub struct WorkPrecisionDiagram {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Part {
     name: String,
-    series: Vec<WorkPrecisionSeries>,
+    series: Vec<Series>,
 }
 
-/// One line of a [`WorkPrecisionDiagram`].
+/// One line: its name in the legend, and errors with run times in seconds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct WorkPrecisionSeries {
-    /// Name in the legend.
-    pub name: String,
-    /// Points, joined in this order.
-    pub points: Vec<WorkPrecisionPoint>,
-}
-
-/// One measurement of a [`WorkPrecisionSeries`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorkPrecisionPoint {
-    /// True relative error.
-    pub error: f64,
-    /// Run time in seconds.
-    pub seconds: f64,
+struct Series {
+    name: String,
+    points: Vec<(f64, f64)>,
 }
 
 impl WorkPrecisionDiagram {
@@ -77,20 +66,21 @@ impl WorkPrecisionDiagram {
         self
     }
 
-    /// Adds the points of one method, joined by a line.
+    /// Adds the points of one method, joined by a line in this order: true relative errors, each with its run time in seconds.
     #[must_use]
-    pub fn series(self, series: WorkPrecisionSeries) -> Self {
-        self.all([series])
+    pub fn series(mut self, name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let series = Series { name: name.into(), points: points.into_iter().collect() };
+        match self.parts.last_mut() {
+            Some(part) => part.series.push(series),
+            None => self.parts.push(Part { name: String::new(), series: vec![series] }),
+        }
+        self
     }
 
     /// Adds lines, for instance [all of a report](super::WorkPrecisionReport::series).
     #[must_use]
-    pub fn all(mut self, series: impl IntoIterator<Item = WorkPrecisionSeries>) -> Self {
-        match self.parts.last_mut() {
-            Some(part) => part.series.extend(series),
-            None => self.parts.push(Part { name: String::new(), series: series.into_iter().collect() }),
-        }
-        self
+    pub fn all(self, series: impl IntoIterator<Item = (String, Vec<(f64, f64)>)>) -> Self {
+        series.into_iter().fold(self, |diagram, (name, points)| diagram.series(name, points))
     }
 
     /// The picture as an SVG document. Points whose error is not a number, or whose run time is not positive,
@@ -158,12 +148,11 @@ impl WorkPrecisionDiagram {
             }
         };
         let figure = |value: f64| if value < LEAST_ERROR { String::new() } else { format!("{value:e}") };
-        let mut x =
-            Axis::decades(points().map(|point| drawn_error(point.error)), labels.0, figure).reversed();
-        if points().any(|point| point.error <= LEAST_ERROR) {
+        let mut x = Axis::decades(points().map(|point| drawn_error(point.0)), labels.0, figure).reversed();
+        if points().any(|point| point.0 <= LEAST_ERROR) {
             x = x.relabel(LEAST_ERROR, "0");
         }
-        let y = Axis::decades(own().map(|point| point.seconds), labels.1, time_label);
+        let y = Axis::decades(own().map(|point| point.1), labels.1, time_label);
         Panel { area, x, y }
     }
 }
@@ -181,9 +170,9 @@ fn time_label(seconds: f64) -> String {
     format!("{} {name}", (seconds / unit).round())
 }
 
-fn draw_series(canvas: &mut Canvas, panel: &Panel, index: usize, series: &WorkPrecisionSeries) {
+fn draw_series(canvas: &mut Canvas, panel: &Panel, index: usize, series: &Series) {
     let colour = category(index);
-    let points = || series.points.iter().map(|point| (drawn_error(point.error), point.seconds));
+    let points = || series.points.iter().map(|(error, seconds)| (drawn_error(*error), *seconds));
     panel.curve(canvas, points(), Pen::new(colour, 2.0));
     for spot in points().filter_map(|(error, seconds)| panel.spot(error, seconds)) {
         mark(canvas, index, spot, colour);
@@ -214,13 +203,9 @@ mod tests {
 
     #[test]
     fn panels_share_a_legend_and_an_axis_of_errors() {
-        let series = |name: &str, error: f64| WorkPrecisionSeries {
-            name: name.to_owned(),
-            points: vec![WorkPrecisionPoint { error, seconds: 1e-3 }],
-        };
         let empty = WorkPrecisionDiagram::new("problems", "error");
-        let one = empty.panel("first").series(series("the one", 1e-3)).series(series("the other", 1e-4));
-        let diagram = one.panel("second").series(series("the other", 1e-9));
+        let one = empty.panel("first").series("the one", [(1e-3, 1e-3)]).series("the other", [(1e-4, 1e-3)]);
+        let diagram = one.panel("second").series("the other", [(1e-9, 1e-3)]);
         assert_eq!(diagram.names(), ["the one", "the other"]);
         let [first, second] = [0, 1].map(|place| diagram.panel_at(place));
         let at = |panel: &Panel| panel.spot(1e-4, 1e-3).map(|(x, _)| x - panel.area.left);

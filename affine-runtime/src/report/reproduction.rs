@@ -1,6 +1,6 @@
 //! What a run was made with, and a program that makes it again.
 
-use crate::integrate::fused_arithmetic;
+use crate::integrate::FusedArithmetic;
 use crate::simulate::{Method, Trajectory};
 use crate::state::Phase;
 
@@ -22,7 +22,7 @@ pub(super) fn settings<const N: usize, P: Phase<N>>(
         ("steps, rejected", format!("{}, {}", cost.steps, cost.rejected)),
         ("right-hand sides", cost.evaluations.to_string()),
         ("affine-runtime", env!("CARGO_PKG_VERSION").to_owned()),
-        ("multiply-adds fused", fused_arithmetic().to_string()),
+        ("multiply-adds fused", FusedArithmetic::here().to_string()),
     ];
     lines.extend(fields.iter().map(|(name, values)| (*name, listed(values))));
     lines.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()

@@ -4,8 +4,6 @@ mod picture;
 mod table;
 
 use crate::error::Error;
-use crate::frames::Matrix;
-use crate::inner::{larger, norm};
 
 /// What a result is held against. None of them is the method under test at another tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,43 +202,5 @@ impl StabilityReport {
     /// The cases that are neither as accurate as demanded nor refused as allowed.
     pub fn fell_short(&self) -> impl Iterator<Item = &StabilityCase> {
         self.cases.iter().filter(|case| case.verdict() == Verdict::FellShort)
-    }
-}
-
-/// `|a - b|/|b|` in the Frobenius norm; 0 where they agree even in a vanishing `b`. Both are scaled by the largest
-/// entry first, so that squares stay in range.
-#[must_use]
-pub fn relative_distance<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
-    let largest = b.iter().fold(0.0_f64, |largest, v| if v.abs() > largest { v.abs() } else { largest });
-    let (a, b) = if largest > 0.0 { (a / largest, b / largest) } else { (*a, *b) };
-    let distance = norm((a - b).as_slice());
-    if distance == 0.0 { 0.0 } else { distance / norm(b.as_slice()) }
-}
-
-/// The largest `|a_i - b_i|/|b_i|` over rows: every row against its own size, as an affine map of space that scales the axes
-/// differently demands. 0 where rows agree even in a vanishing one; NaN where an entry is.
-#[must_use]
-pub fn relative_distance_by_rows<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
-    let alone = |m: &Matrix<N>, i: usize| Matrix::<N>::from_fn(|k, j| if k == 0 { m[(i, j)] } else { 0.0 });
-    (0..N).map(|i| relative_distance(&alone(a, i), &alone(b, i))).fold(0.0, larger)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Matrix, relative_distance_by_rows};
-
-    #[test]
-    fn a_row_that_is_no_number_is_not_passed_over() {
-        let b = Matrix::<3>::new(1.0, 2.0, 3.0, 4e200, 5e200, 6e200, 0.0, 0.0, 0.0);
-        assert_eq!(relative_distance_by_rows(&b, &b), 0.0);
-        let mut a = b;
-        a[(1, 2)] = 6.6e200;
-        let expected = 0.6 / 77.0_f64.sqrt();
-        assert!((relative_distance_by_rows(&a, &b) - expected).abs() < 1e-15);
-        for row in 0..3 {
-            let mut a = b;
-            a[(row, 0)] = f64::NAN;
-            assert!(relative_distance_by_rows(&a, &b).is_nan(), "row {row}");
-        }
     }
 }

@@ -2,7 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::frames::{Matrix, Vector, inverse};
+use crate::decompose::LinearMap;
+use crate::frames::{Matrix, Vector};
 
 /// A point of the picture plane: to the right, upward.
 pub(super) type Planar = (f64, f64);
@@ -71,7 +72,7 @@ impl<const N: usize> View<N> {
         let Some(eye) = self.eye else {
             return vec![vec![(0.0, 0.0), self.project(&axis(0))]];
         };
-        let facing = inverse(phi) * eye;
+        let facing = phi.inverse() * eye;
         let half_circle = |(a, b): (usize, usize)| {
             let middle = facing[b].atan2(facing[a]);
             let point = |k: usize| {
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn the_outline_in_the_plane_is_the_deformed_circle() {
         let phi = Matrix::<2>::new(2.0, 0.5, -0.3, 0.8);
-        let back = inverse(&phi);
+        let back = phi.inverse();
         for (x, y) in View::<2>::new().outline(&phi) {
             assert!(((back * Vector::<2>::new(x, y)).norm() - 1.0).abs() < ROUNDING);
         }
@@ -145,7 +146,7 @@ mod tests {
                 let (right, up) = (phi.tr_mul(&view.right), phi.tr_mul(&view.up));
                 let m = Matrix::<2>::new(right.dot(&right), right.dot(&up), right.dot(&up), up.dot(&up));
                 let z = Vector::<2>::new(x, y);
-                assert!((z.dot(&(inverse(&m) * z)) - 1.0).abs() < 10.0 * ROUNDING);
+                assert!((z.dot(&(m.inverse() * z)) - 1.0).abs() < 10.0 * ROUNDING);
             }
         }
         // The undeformed ball: the middle of the arc in the plane of the axes 1 and 2 lies straight below the eye.

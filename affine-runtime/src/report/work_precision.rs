@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::diagram::{WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
+use super::diagram::WorkPrecisionDiagram;
 use super::local_error::share_above;
 use super::reference::reference_solution;
 use super::{method_name, save};
@@ -355,18 +355,18 @@ impl WorkPrecisionReport {
         row.outcome.as_ref().ok().and_then(|measured| measured.errors.get(index).copied())
     }
 
-    /// One series per method for a [`WorkPrecisionDiagram`], over the error of `phi`. With `prefix`, say the
-    /// problem's name, several reports keep apart in one picture.
+    /// One series per method for a [`WorkPrecisionDiagram`]: its name, and errors of `phi` with run times in seconds. With
+    /// `prefix`, say the problem's name, several reports keep apart in one picture.
     #[must_use]
-    pub fn series(&self, prefix: &str) -> Vec<WorkPrecisionSeries> {
-        let mut all: Vec<WorkPrecisionSeries> = Vec::new();
+    pub fn series(&self, prefix: &str) -> Vec<(String, Vec<(f64, f64)>)> {
+        let mut all: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for row in &self.rows {
             let (Some(error), Ok(measured)) = (self.error(row, "phi"), &row.outcome) else { continue };
             let name = format!("{prefix}{}", method_name(row.method));
-            let point = WorkPrecisionPoint { error, seconds: measured.run_time.as_secs_f64() };
-            match all.iter_mut().find(|series| series.name == name) {
-                Some(series) => series.points.push(point),
-                None => all.push(WorkPrecisionSeries { name, points: vec![point] }),
+            let point = (error, measured.run_time.as_secs_f64());
+            match all.iter_mut().find(|series| series.0 == name) {
+                Some(series) => series.1.push(point),
+                None => all.push((name, vec![point])),
             }
         }
         all

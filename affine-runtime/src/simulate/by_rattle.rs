@@ -2,8 +2,9 @@
 
 use super::layout::Layout;
 use super::motion::{At, Begun, Boxed, Purpose, begun, boxed};
+use crate::decompose::LinearMap;
 use crate::error::{Reason, Setting};
-use crate::frames::{Matrix, inverse};
+use crate::frames::Matrix;
 use crate::inner::{Unconstrained, is_emitted};
 use crate::integrate::Rattle;
 use crate::integrate::rattle::Composition;
@@ -62,7 +63,7 @@ fn canonical<const N: usize, R: Unconstrained>(free: &R, t: f64, start: &impl Ph
         }
         state
     };
-    let to_body = inverse(&phi);
+    let to_body = phi.inverse();
     let growth = |pi: &Matrix<N>| {
         let mut rates = free.rates(t, &state(pi));
         let velocity = groups(R::GROUPS, rates.as_mut()).find(|(group, _)| *group == Quantity::Placement);

@@ -7,7 +7,7 @@ use super::method::Method;
 use super::recorder::Recorder;
 use super::watcher::{At, Sampling, WITHIN_A_STEP};
 use crate::error::Reason;
-use crate::geodesic::{Geodesic, Motion};
+use crate::geodesic::{Geodesic, Orbit};
 use crate::inner::LogDeterminant;
 use crate::inner::larger;
 use crate::state::Phase;
@@ -84,7 +84,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let computation = &mut self.trajectory.computation;
         computation.method = Method::ClosedForm;
         computation.no_whirl =
-            matches!(geodesic.motion, Motion::Body { whirl: None, .. } | Motion::Space { whirl: None, .. });
+            matches!(geodesic.motion, Orbit::Body { whirl: None, .. } | Orbit::Space { whirl: None, .. });
         let model = self.model;
         let motion = ClosedForm::begin(model, *geodesic, (t0, *start), t_end);
         let at = |t| motion.at(model, t);

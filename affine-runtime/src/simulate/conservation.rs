@@ -5,7 +5,7 @@ use core::fmt;
 use super::event::Word;
 use super::power_balance::PowerBalance;
 use super::trajectory::Trajectory;
-use crate::conserved::{Components, evaluate, scale};
+use crate::conserved::Components;
 use crate::inner::larger;
 use crate::model::Conserved;
 use crate::state::Phase;
@@ -31,7 +31,7 @@ pub struct Drift {
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub absolute: f64,
     /// The size it is held against: the largest, over the same points, of what the quantity is made of (see
-    /// [`scale`](crate::conserved::scale)); for the energy, of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
+    /// [`Conserved::scale`]); for the energy, of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub scale: f64,
 }
@@ -107,7 +107,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
 
     /// A quantity, where transposes and norms are the plain ones.
     fn value(&self, quantity: Conserved, point: &P) -> Option<Components> {
-        evaluate(quantity, &self.orthonormal(point))
+        quantity.of(&self.orthonormal(point))
     }
 
     /// A phase point of the trajectory in bases in which the model's metrics are the identity, as
@@ -129,7 +129,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         for point in self.points.iter().chain([&self.start.1, &self.end.1]) {
             let distance = self.value(quantity, point).map_or(0.0, |value| value.distance(&at_start));
             drift.absolute = larger(drift.absolute, distance);
-            drift.scale = larger(drift.scale, scale(quantity, &self.orthonormal(point)).unwrap_or(0.0));
+            drift.scale = larger(drift.scale, quantity.scale(&self.orthonormal(point)).unwrap_or(0.0));
         }
         drift
     }

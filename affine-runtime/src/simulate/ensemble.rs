@@ -17,7 +17,7 @@ use super::output::Output;
 use super::settings::Plan;
 use crate::capability::InLanes;
 use crate::error::{Setting, Stop};
-use crate::lanes::{Lanes, Widest};
+use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
 use asked::{Asked, Events, Start};
 
@@ -59,7 +59,7 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
-/// Bodies are computed in lanes, [`Widest`] at once, by the Runge-Kutta method of order 8. Each is at its own time and takes
+/// Bodies are computed in lanes, [`F64x8`] at once, by the Runge-Kutta method of order 8. Each is at its own time and takes
 /// its own steps, and where one has come to the end, the next takes its lane: every body comes to what
 /// [`Method::RungeKutta8`](super::Method::RungeKutta8) gives for it alone, its outputs and events too, bit for bit in strict lanes, whatever its
 /// neighbours, lanes, threads and shard. A body that cannot go on (numbers that are not finite, a collapse, a step that
@@ -217,7 +217,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
-        self.run_in::<Widest>()
+        self.run_in::<F64x8>()
     }
 
     /// The same in lanes of another number, a multiple of eight, or of another kind: in strict lanes the same bits, in
@@ -278,7 +278,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
-        self.fold_in::<Widest, A>(begin, add, each)
+        self.fold_in::<F64x8, A>(begin, add, each)
     }
 
     fn fold_in<T: Lanes, A: Send>(

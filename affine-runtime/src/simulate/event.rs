@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::decompose::log_stretches;
+use crate::decompose::LinearMap;
 use crate::error::Result;
 use crate::frames::Matrix;
 use crate::inner::LogDeterminant;
@@ -89,7 +89,7 @@ pub struct Event<'a, const N: usize, P> {
 
 /// Changes of sign that count, as a run meets them: a run backward in time meets a rising function falling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Direction {
+pub(super) enum Direction {
     /// From negative to positive.
     Rising,
     /// From positive to negative.
@@ -168,7 +168,7 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     fn stretch(name: &'static str, value: f64, choice: fn(f64, f64) -> f64) -> Self {
         let logarithm = libm::log(value);
         Self::of_placement(name, move |phi| {
-            log_stretches(phi).into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
+            phi.log_stretches().into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
         })
     }
 

@@ -16,7 +16,7 @@ use super::trajectory::{Computation, Energies, Trajectory};
 use super::watcher::Watcher;
 use crate::error::Setting;
 use crate::error::{Reason, Stop};
-use crate::integrate::{Statistics, fused_arithmetic};
+use crate::integrate::{FusedArithmetic, Statistics};
 use crate::model::{Model, StateVector};
 use crate::state::Phase;
 
@@ -132,7 +132,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
             recorder.trajectory.checkpoint =
-                Some(Box::new(Checkpoint { run, fused: fused_arithmetic(), place }));
+                Some(Box::new(Checkpoint { run, fused: FusedArithmetic::here(), place }));
         }
         self.settings.events = recorder.watcher.events;
         (self.settings.progress, self.settings.observe) = (recorder.progress, recorder.observe);
@@ -150,7 +150,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         if checkpoint.run != fingerprint(self.model, &self.settings, events) {
             return Err(Setting::Checkpoint { model });
         }
-        if checkpoint.fused != fused_arithmetic() {
+        if checkpoint.fused != FusedArithmetic::here() {
             recorder.trajectory.computation.fused_before = Some(checkpoint.fused);
         }
         let origin = checkpoint.place.origin(&self.settings.start);

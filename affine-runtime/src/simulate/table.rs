@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::trajectory::Trajectory;
-use crate::conserved::evaluate;
 use crate::frames::Matrix;
 use crate::model::{Conserved, Description, Model, Quantity};
 use crate::parametric::Fields;
@@ -170,7 +169,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         for (k, (t, point)) in self.iter().enumerate() {
             let energy = self.energies.outputs.get(k).copied().unwrap_or(f64::NAN);
             let work = is_balanced.then(|| self.energies.work.get(k).copied().unwrap_or(f64::NAN));
-            let at = |quantity: Conserved, point: &P| evaluate(quantity, &self.orthonormal(point));
+            let at = |quantity: Conserved, point: &P| quantity.of(&self.orthonormal(point));
             let values = conserved.iter().flat_map(|quantity| {
                 let value = at(*quantity, point);
                 value.iter().flat_map(|value| value.as_slice().to_vec()).collect::<Vec<_>>()
@@ -205,7 +204,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// The columns of a conserved quantity.
     fn names_of(&self, quantity: Conserved) -> Vec<String> {
         let own = name(quantity);
-        let Some(value) = evaluate(quantity, &self.orthonormal(&self.start.1)) else { return Vec::new() };
+        let Some(value) = quantity.of(&self.orthonormal(&self.start.1)) else { return Vec::new() };
         let is_vector = matches!(quantity, Conserved::LinearMomentum | Conserved::ComovingLinearMomentum);
         match value.as_slice().len() {
             // One entry of a skew matrix has its indices all the same.

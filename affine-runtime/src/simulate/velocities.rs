@@ -1,8 +1,9 @@
 //! Variables of a motion with stiff friction: affine velocities in place of momenta.
 
 use super::layout::{Layout, momentum_in, placement_in};
+use crate::decompose::LinearMap;
 use crate::dual::Dual;
-use crate::frames::{Matrix, inverse};
+use crate::frames::Matrix;
 use crate::integrate::radau::{Differences, Exact, Jacobian};
 use crate::model::{Handle, Model, StateVector};
 use crate::scalar::Real;
@@ -24,8 +25,8 @@ enum Frame {
 impl Frame {
     fn velocity<const N: usize, T: Real>(self, phi: &Matrix<N, T>, phi_dot: &Matrix<N, T>) -> Matrix<N, T> {
         match self {
-            Self::Comoving => inverse(phi) * phi_dot,
-            Self::Spatial => phi_dot * inverse(phi),
+            Self::Comoving => phi.inverse() * phi_dot,
+            Self::Spatial => phi_dot * phi.inverse(),
         }
     }
     fn phi_dot<const N: usize>(self, phi: &Matrix<N>, velocity: &Matrix<N>) -> Matrix<N> {

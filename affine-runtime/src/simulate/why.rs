@@ -8,7 +8,7 @@ use super::layout::has_work;
 use super::method::Method;
 use super::trajectory::{Computation, Trajectory};
 use crate::inner::ORDER;
-use crate::integrate::fused_arithmetic;
+use crate::integrate::FusedArithmetic;
 use crate::integrate::radau::Tableau;
 use crate::integrate::taylor::order_for;
 use crate::model::{Conserved, Constraint, Description, LeftOut, Quantity, Scope};
@@ -349,7 +349,7 @@ impl Why {
 
     fn arithmetic(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(there) = self.computation.fused_before else { return Ok(()) };
-        let here = fused_arithmetic();
+        let here = FusedArithmetic::here();
         writeln!(
             f,
             "goes on from another machine: multiply-adds were fused {there} there, and are fused {here} here; no uninterrupted \

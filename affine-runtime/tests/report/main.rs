@@ -18,8 +18,7 @@ use std::time::Duration;
 use affine_runtime::frames::{AffineSpin, Matrix, TwoPoint};
 use affine_runtime::model::Model;
 use affine_runtime::report::{
-    Curve, CurveDiagram, CurvePanel, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint,
-    WorkPrecisionReport, WorkPrecisionSeries,
+    Curve, CurveDiagram, CurvePanel, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionReport,
 };
 use affine_runtime::simulate::{Reason, Setting};
 use affine_runtime::state::{Phase, Pinned};
@@ -239,15 +238,10 @@ fn csv_of_a_stopped_run_quotes_the_reason() {
 #[test]
 fn diagrams_have_a_line_per_series() {
     let missile = missile().run().unwrap();
-    let other = WorkPrecisionSeries {
-        name: "another tool, <unknown> & \"quoted\"".to_owned(),
-        points: [(1e-4, 2e-3), (1e-9, 5e-2), (0.0, 0.1), (f64::NAN, 0.2)]
-            .map(|(error, seconds)| WorkPrecisionPoint { error, seconds })
-            .into(),
-    };
+    let other = [(1e-4, 2e-3), (1e-9, 5e-2), (0.0, 0.1), (f64::NAN, 0.2)];
     let diagram = WorkPrecisionDiagram::new("Error against run time", "relative error of phi")
         .all(missile.series("missile, "))
-        .series(other);
+        .series("another tool, <unknown> & \"quoted\"", other);
     let text = diagram.to_svg();
     assert_eq!(text, diagram.to_svg(), "the same bytes for the same data");
     let picture = Picture::of(&text);
@@ -438,5 +432,5 @@ fn fixed_steps_give_a_row_each() {
     let order = (errors[1] / errors[2]).log2();
     assert!((order - 6.0).abs() < 0.5, "{errors:?}");
     let series = report.series("");
-    assert_eq!((series.len(), series[0].name.as_str(), series[0].points.len()), (1, "Gauss 6", steps.len()));
+    assert_eq!((series.len(), series[0].0.as_str(), series[0].1.len()), (1, "Gauss 6", steps.len()));
 }

@@ -4,7 +4,7 @@ use core::cell::Cell;
 use core::ops::ControlFlow;
 
 #[cfg(feature = "serde")]
-use affine_integrators::{FusedArithmetic, fused_arithmetic};
+use affine_integrators::FusedArithmetic;
 use affine_runtime::__private::point;
 use affine_runtime::Simulation;
 use affine_runtime::frames::TwoPoint;
@@ -181,7 +181,7 @@ fn a_run_that_goes_on_in_another_class_of_arithmetic_says_so() {
     let halt = whole(Method::RungeKutta8).max_steps(2).run().unwrap_err();
     let text = serde_json::to_string(halt.trajectory.checkpoint().unwrap()).unwrap();
     let fused = |place: FusedArithmetic| format!("\"fused\":\"{place:?}\"");
-    let here = fused_arithmetic();
+    let here = FusedArithmetic::here();
     let said = |text: &str| {
         let checkpoint: Checkpoint = serde_json::from_str(text).unwrap();
         whole(Method::RungeKutta8).resume(&checkpoint).run().unwrap().why().to_string()

@@ -4,10 +4,10 @@
 
 mod placements;
 
-use affine_runtime::decompose::{log_stretches, principal_log_stretches, principal_stretches};
+use affine_runtime::__private::{principal_log_stretches, principal_stretches};
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::dual::Dual;
 use affine_runtime::frames::Matrix;
-use affine_runtime::kinematics::mean_log_stretch;
 use affine_runtime::scalar::Scalar;
 use placements::{PLACEMENTS_2, PLACEMENTS_3};
 
@@ -100,7 +100,7 @@ fn functions_of_log_stretches() {
 fn log_stretches_are_accurate<const N: usize>(cases: &[Case<N>]) {
     for case in cases {
         let phi = Matrix::<N>::from_fn(|i, a| case.phi[i][a]);
-        let found = sorted(log_stretches(&phi));
+        let found = sorted(phi.log_stretches());
         let spread = case.log_stretches[N - 1] - case.log_stretches[0];
         let strain = (phi - Matrix::<N>::identity()).norm();
         let size = if strain < 0.05 { strain } else { spread.exp() };
@@ -118,7 +118,7 @@ fn log_stretches_are_accurate<const N: usize>(cases: &[Case<N>]) {
 fn log_stretches_near_and_far() {
     log_stretches_are_accurate(&PLACEMENTS_2);
     log_stretches_are_accurate(&PLACEMENTS_3);
-    assert_eq!(log_stretches(&Matrix::<3>::identity()), [0.0; 3]);
+    assert_eq!(Matrix::<3>::identity().log_stretches(), [0.0; 3]);
 }
 
 /// Uniform in (-1, 1).
@@ -208,8 +208,8 @@ fn the_mean_log_stretch_has_its_derivative() {
         let varied =
             Matrix::<2, Dual<f64>>::from_fn(|i, j| Dual { value: phi[(i, j)], slope: change[(i, j)] });
         let expected = (phi.try_inverse().unwrap() * change).trace() / 2.0;
-        let found = mean_log_stretch(&varied);
+        let found = varied.mean_log_stretch();
         assert!((found.slope - expected).abs() < 1e-14, "{} {expected}", found.slope);
-        assert!((found.value - mean_log_stretch(&phi)).abs() < 1e-15);
+        assert!((found.value - phi.mean_log_stretch()).abs() < 1e-15);
     }
 }

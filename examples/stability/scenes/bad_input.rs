@@ -2,10 +2,10 @@
 
 use affine_runtime::Error;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 use affine_runtime::simulate::Method;
 
-use super::shared::scene;
+use super::shared::{relative_distance, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = i), potential = hyperbolic_dilatation(10) + neo_hookean(0.5))]
 pub(crate) struct Disc {

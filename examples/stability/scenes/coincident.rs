@@ -1,10 +1,10 @@
 //! Stretches that coincide, and starts that do nothing.
 
-use affine_runtime::decompose::skew_exponential;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{energy, run, scene};
+use super::shared::{energy, relative_distance, run, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
 pub(crate) struct Disc;
@@ -74,7 +74,7 @@ fn rest(report: &mut StabilityReport) {
 fn rotation(report: &mut StabilityReport) {
     let turn = Matrix::<3>::new(0.0, -0.5, 0.3, 0.5, 0.0, -0.7, -0.3, 0.7, 0.0);
     let unit = Matrix::<3>::identity();
-    let exact = skew_exponential(&(turn * 10.0));
+    let exact = (turn * 10.0).skew_exponential();
     let named = |model| scene(model, 3, "pure rotation, t = 10".to_owned(), "phi", Oracle::ClosedForm);
     report.case(named("body-metric"), Demand::Held(SAME), || {
         let solution = run(&Body, Body.at_velocity(unit, turn)?, 10.0)?;
@@ -89,7 +89,7 @@ fn rotation(report: &mut StabilityReport) {
         let phi = Matrix::<2>::identity() * stretch;
         let spin = Matrix::<2>::new(0.0, -rate, rate, 0.0);
         let solution = run(&HenckyDisc, HenckyDisc.at_velocity(phi, phi * spin)?, 10.0)?;
-        let exact = phi * skew_exponential(&(spin * 10.0));
+        let exact = phi * (spin * 10.0).skew_exponential();
         Ok((relative_distance(solution.end().1.phi(), &exact), solution.statistics().steps))
     });
 }
@@ -121,8 +121,8 @@ fn generators(report: &mut StabilityReport) {
 
 /// Through and near coincident stretches: a potential of single stretches does not know rotations of space and body.
 fn crossing(report: &mut StabilityReport) -> affine_runtime::Result<()> {
-    let turn = skew_exponential(&Matrix::<3>::new(0.0, -0.5, 0.3, 0.5, 0.0, -0.7, -0.3, 0.7, 0.0));
-    let other = skew_exponential(&Matrix::<3>::new(0.0, 0.9, 0.2, -0.9, 0.0, 0.4, -0.2, -0.4, 0.0));
+    let turn = Matrix::<3>::new(0.0, -0.5, 0.3, 0.5, 0.0, -0.7, -0.3, 0.7, 0.0).skew_exponential();
+    let other = Matrix::<3>::new(0.0, 0.9, 0.2, -0.9, 0.0, 0.4, -0.2, -0.4, 0.0).skew_exponential();
     for off in [0.0, 1e-15, 1e-12, 1e-8, 1e-4] {
         let phi = Matrix::<3>::from_diagonal(&Vector::<3>::new(1.1, 1.1 + off, 1.1 - off));
         let velocity = Matrix::<3>::new(0.2, 0.1, 0.0, 0.1, -0.3, 0.2, -0.1, 0.0, 0.15);

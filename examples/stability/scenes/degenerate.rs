@@ -1,10 +1,10 @@
 //! Nearly degenerate kinetic energies.
 
-use affine_runtime::decompose::{exponential, skew_exponential};
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{run, scene};
+use super::shared::{relative_distance, run, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = a, casimir1_squared = b, body_inertia = i))]
 pub(crate) struct Disc {
@@ -146,5 +146,5 @@ fn conditions(report: &mut StabilityReport) {
 /// `exp(t (sym M - w skew M)) exp(t (1 + w) skew M)` (Martin and Neff, arXiv:1409.7849), from the velocity alone.
 fn martin_neff<const N: usize>(rate: &Matrix<N>, w: f64, t: f64) -> Matrix<N> {
     let (sym, skew) = ((rate + rate.transpose()) * 0.5, (rate - rate.transpose()) * 0.5);
-    exponential(&((sym - skew * w) * t)) * skew_exponential(&(skew * ((1.0 + w) * t)))
+    ((sym - skew * w) * t).exponential() * (skew * ((1.0 + w) * t)).skew_exponential()
 }

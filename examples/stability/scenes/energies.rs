@@ -1,9 +1,9 @@
 //! Energies and motions under potentials that are made of `q` and tensors together, far from the undeformed state.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{run, scene};
+use super::shared::{relative_distance, run, scene};
 use super::stretches::{SAME, generic};
 
 /// Bodies whose potential is a function of the shear alone, each written in another way.

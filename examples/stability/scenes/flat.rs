@@ -4,9 +4,9 @@
 //! both; of `q` it is that of `chi` with `q` counted from `-ln c`.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{TOLERANCE, run, scene};
+use super::shared::{TOLERANCE, relative_distance, run, scene};
 use super::stretches::{SAME, generic};
 
 /// Under the logarithm of its volume.

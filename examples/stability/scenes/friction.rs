@@ -1,9 +1,9 @@
 //! Stiff friction: viscous bodies against solutions of 25 digits, with the friction over six powers of ten.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::scene;
+use super::shared::{relative_distance, scene};
 
 /// Viscosity of every deformation.
 #[affine_model(

@@ -1,13 +1,13 @@
 //! Long runs: how errors grow.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 use affine_runtime::simulate::Method;
 
 use super::Extent;
 use super::growth::{Exponents, STARTS, up_to};
 use super::reference::rows;
-use super::shared::scene;
+use super::shared::{relative_distance, scene};
 
 #[affine_model(
     dim = 3,

@@ -2,12 +2,12 @@
 
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 use affine_runtime::simulate::Method;
 
 use super::Extent;
 use super::growth::{Exponents, STARTS, exponent, mean_to_error, up_to};
-use super::shared::scene;
+use super::shared::{relative_distance, scene};
 
 #[affine_model(dim = 2, kinetic(dalembert = 1), potential = 0.5*tr(G), emit(splitting))]
 pub(crate) struct Springs;

@@ -1,9 +1,9 @@
 //! Stretches far from 1 in further families, and potentials that know `q`.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance_by_rows};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{run, scene};
+use super::shared::{relative_distance_by_rows, run, scene};
 use super::stretches::{Affine, Gas, HookeDisc, SAME, ShiftedDisc, Straight, Tensor, generic, maps};
 
 pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {

@@ -1,9 +1,9 @@
 //! A penalty on deformation, towards the rigid body.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{apart, energy, floor, run, scene};
+use super::shared::{apart, energy, floor, relative_distance, run, scene};
 
 #[affine_model(dim = 3, kinetic(dalembert = diag(1, 1.5, 2)), potential = orthogonality(k))]
 pub(crate) struct Penalised {

@@ -2,7 +2,7 @@
 
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Oracle, Scene, relative_distance};
+use affine_runtime::report::{Oracle, Scene};
 
 /// Tolerance of all integrations.
 pub(super) const TOLERANCE: f64 = 1e-13;
@@ -36,6 +36,24 @@ pub(super) fn floor(omega: f64, t: f64) -> f64 {
 /// Relative drift of the energy.
 pub(super) fn energy<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) -> f64 {
     run.conservation().of(Conserved::Energy).map_or(f64::NAN, |drift| drift.relative())
+}
+
+/// `|a - b|/|b|` in the Frobenius norm; 0 where they agree even in a vanishing `b`. Both are scaled by the largest
+/// entry first, so that squares stay in range.
+pub(super) fn relative_distance<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
+    let largest = b.iter().fold(0.0_f64, |largest, v| if v.abs() > largest { v.abs() } else { largest });
+    let (a, b) = if largest > 0.0 { (a / largest, b / largest) } else { (*a, *b) };
+    let distance = (a - b).norm();
+    if distance == 0.0 { 0.0 } else { distance / b.norm() }
+}
+
+/// The largest `|a_i - b_i|/|b_i|` over rows: every row against its own size, as an affine map of space that scales the axes
+/// differently demands. 0 where rows agree even in a vanishing one; NaN where an entry is.
+pub(super) fn relative_distance_by_rows<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> f64 {
+    let alone = |m: &Matrix<N>, i: usize| Matrix::<N>::from_fn(|k, j| if k == 0 { m[(i, j)] } else { 0.0 });
+    let errors = (0..N).map(|i| relative_distance(&alone(a, i), &alone(b, i)));
+    // `f64::max` would drop a NaN.
+    errors.fold(0.0, |largest: f64, error| if error <= largest || largest.is_nan() { largest } else { error })
 }
 
 /// Distance of the placements at the ends of two runs, and the steps of the first.

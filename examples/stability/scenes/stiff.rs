@@ -1,11 +1,11 @@
 //! Stiff dilatation and stiff shear.
 
-use affine_runtime::kinematics::isochoric_part;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
 use super::reference::{Row, rows};
-use super::shared::{apart, energy, floor, run, scene};
+use super::shared::{apart, energy, floor, relative_distance, run, scene};
 
 const P2: &str = include_str!("../../../tests/data/p2.csv");
 const P2R: &str = include_str!("../../../tests/data/p2r.csv");
@@ -108,7 +108,7 @@ pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> 
 /// The isochoric part of the motion does not know `kappa`: it is that of the reference for `kappa = 10`.
 fn separable(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     let error =
-        |phi: &Matrix<3>, row: &Row| relative_distance(&isochoric_part(phi), &isochoric_part(&row.phi));
+        |phi: &Matrix<3>, row: &Row| relative_distance(&phi.isochoric_part(), &row.phi.isochoric_part());
     for kappa in KAPPAS {
         let named = |model, quantity, oracle| scene(model, 3, format!("kappa = {kappa:e}"), quantity, oracle);
         let (reference, mirrored) = (rows(P2), rows(P2R));
@@ -141,7 +141,7 @@ fn separable_in_the_plane(report: &mut StabilityReport) -> affine_runtime::Resul
     let phi = Matrix::<2>::new(1.2, 0.3, -0.1, 0.9);
     let spin = Matrix::<2>::new(0.3, -0.4, 0.6, -0.3);
     let whole = spin + Matrix::<2>::identity() * 0.2;
-    let confined = ConfinedPlanar.at_momentum(isochoric_part(&phi), Comoving(spin))?;
+    let confined = ConfinedPlanar.at_momentum(phi.isochoric_part(), Comoving(spin))?;
     let confined = run(&ConfinedPlanar, confined, 10.0)?;
     for kappa in KAPPAS {
         let model = Planar { kappa }.prepare()?;
@@ -149,7 +149,7 @@ fn separable_in_the_plane(report: &mut StabilityReport) -> affine_runtime::Resul
         let named = scene("body-metric", 2, format!("kappa = {kappa:e}"), "Psi, t = 10", Oracle::Limit);
         report.case(named, Demand::Held(1e-9), || {
             let solution = solution?;
-            let psi = isochoric_part(solution.end().1.phi());
+            let psi = solution.end().1.phi().isochoric_part();
             Ok((relative_distance(&psi, confined.end().1.phi()), solution.statistics().steps))
         });
     }
@@ -169,7 +169,7 @@ fn elastic(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         });
     }
     let t = 1.0;
-    let phi = isochoric_part(&Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05));
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05).isochoric_part();
     let rate = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
     let velocity = phi * rate;
     let confined = run(&ConfinedElastic, ConfinedElastic.at_velocity(phi, velocity)?, t)?;
@@ -202,7 +202,7 @@ fn missile(report: &mut StabilityReport) -> affine_runtime::Result<()> {
         });
     }
     let t = 1.0;
-    let phi = isochoric_part(&Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05));
+    let phi = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05).isochoric_part();
     let spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
     let confined = ConfinedMissile.at_momentum(Vector::<3>::zeros(), phi, p, Comoving(spin))?;
     let confined = run(&ConfinedMissile, confined, t)?;

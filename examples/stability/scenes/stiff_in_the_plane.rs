@@ -1,6 +1,6 @@
 //! Stiff dilatation that does not separate, in the plane.
 
-use affine_runtime::kinematics::isochoric_part;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::prelude::*;
 use affine_runtime::report::StabilityReport;
 
@@ -39,7 +39,7 @@ pub(crate) struct ConfinedMissile;
 /// From `det phi = 1` and a traceless velocity, as in space.
 pub(super) fn cases(report: &mut StabilityReport) -> affine_runtime::Result<()> {
     let t = 1.0;
-    let phi = isochoric_part(&Matrix::<2>::new(1.2, 0.3, -0.1, 0.9));
+    let phi = Matrix::<2>::new(1.2, 0.3, -0.1, 0.9).isochoric_part();
     let rate = Matrix::<2>::new(0.3, -0.4, 0.6, -0.3);
     let confined = run(&ConfinedElastic, ConfinedElastic.at_velocity(phi, phi * rate)?, t)?;
     for kappa in KAPPAS {

@@ -1,9 +1,9 @@
 //! Stretches far from 1, alike and of very different size.
 
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance_by_rows};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{run, scene};
+use super::shared::{relative_distance_by_rows, run, scene};
 
 #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = diag(1, 1.5, 2)))]
 pub(crate) struct Body;

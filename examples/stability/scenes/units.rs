@@ -1,10 +1,10 @@
 //! Fast spins, uneven masses, other units.
 
-use affine_runtime::decompose::skew_exponential;
+use affine_runtime::decompose::LinearMap;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{Demand, Oracle, StabilityReport, relative_distance};
+use affine_runtime::report::{Demand, Oracle, StabilityReport};
 
-use super::shared::{run, run_by, scene};
+use super::shared::{relative_distance, run, run_by, scene};
 
 #[affine_model(dim = 2, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1))]
 pub(crate) struct Disc;
@@ -75,7 +75,7 @@ fn spins(report: &mut StabilityReport) {
         report.case(named("body-metric", 3, Oracle::ClosedForm), demand, || {
             let turn = Matrix::<3>::new(0.0, -0.6, 0.0, 0.6, 0.0, -0.8, 0.0, 0.8, 0.0) * rate;
             let solution = run(&Body, Body.at_velocity(Matrix::<3>::identity(), turn)?, 1.0)?;
-            let exact = skew_exponential(&turn);
+            let exact = turn.skew_exponential();
             Ok((relative_distance(solution.end().1.phi(), &exact), solution.statistics().steps))
         });
         // The motion of Psi goes on in the whirl's frame: slower by w = 2/3 and faster by 5/3.

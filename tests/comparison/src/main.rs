@@ -33,7 +33,7 @@ use std::time::Duration;
 
 use affine_runtime::capability::InLanes;
 use affine_runtime::prelude::*;
-use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, WorkPrecisionPoint, WorkPrecisionSeries};
+use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram};
 
 use compiled::Compiled;
 use equal_steps::{Curve, Curves, Motion};
@@ -160,11 +160,7 @@ impl Visitor for Comparison {
         let theirs: Vec<(&str, Vec<(f64, f64)>)> = measured
             .iter()
             .map(|(tool, runs)| (*tool, pairs(runs)))
-            .chain(
-                elsewhere
-                    .iter()
-                    .map(|peer| (&*peer.name, peer.points.iter().map(|p| (p.error, p.seconds)).collect())),
-            )
+            .chain(elsewhere.iter().map(|(tool, points)| (&**tool, points.clone())))
             .collect();
         let all: Vec<(f64, f64)> = theirs.iter().flat_map(|(_, runs)| runs.clone()).collect();
         println!("{}", ratios(name, &automatic, &all));
@@ -244,7 +240,7 @@ impl Comparison {
 
     /// What other tools reached on a problem, one series each: repeats and settings that others of the tool beat left
     /// out.
-    fn elsewhere(&self, problem: &str) -> Vec<WorkPrecisionSeries> {
+    fn elsewhere(&self, problem: &str) -> Vec<Series> {
         let mut tools: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
         for peer in self.peers.iter().filter(|peer| peer.problem.replace('_', " ") == problem) {
             match tools.iter_mut().find(|(tool, _)| *tool == peer.tool) {
@@ -252,12 +248,7 @@ impl Comparison {
                 None => tools.push((&peer.tool, vec![(peer.error, peer.time.as_secs_f64())])),
             }
         }
-        let series = |(tool, runs): (&str, Vec<_>)| {
-            let points =
-                front(&runs).into_iter().map(|(error, seconds)| WorkPrecisionPoint { error, seconds });
-            WorkPrecisionSeries { name: tool.to_owned(), points: points.collect() }
-        };
-        tools.into_iter().map(series).collect()
+        tools.into_iter().map(|(tool, runs)| (tool.to_owned(), front(&runs))).collect()
     }
 
     fn record_curve(&mut self, problem: &str, curve: &Curve) {
@@ -282,9 +273,11 @@ impl Comparison {
     }
 }
 
-fn series(tool: &str, runs: &[Measured]) -> WorkPrecisionSeries {
-    let point = |run: &Measured| WorkPrecisionPoint { error: run.error, seconds: run.time.as_secs_f64() };
-    WorkPrecisionSeries { name: tool.to_owned(), points: runs.iter().map(point).collect() }
+/// The name of a line of a diagram, and its errors and seconds.
+type Series = (String, Vec<(f64, f64)>);
+
+fn series(tool: &str, runs: &[Measured]) -> Series {
+    (tool.to_owned(), pairs(runs))
 }
 
 /// Errors and seconds.

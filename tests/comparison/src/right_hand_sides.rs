@@ -4,7 +4,7 @@
 //! which are what is integrated.
 
 use affine_runtime::capability::InLanes;
-use affine_runtime::lanes::{FastF64x8, Lanes, Widest};
+use affine_runtime::lanes::{F64x8, FastF64x8, Lanes};
 use affine_runtime::model::StateVector;
 
 use crate::by_hand;
@@ -48,7 +48,7 @@ impl Visitor for RightHandSides {
             beside(
                 best[2],
                 &[
-                    reduced_in_lanes::<Widest, M>(model, &start),
+                    reduced_in_lanes::<F64x8, M>(model, &start),
                     reduced_in_lanes::<FastF64x8, M>(model, &start)
                 ]
             ),

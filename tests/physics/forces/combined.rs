@@ -2,7 +2,7 @@
 //! another statement.
 
 use affine_oracle::Random;
-use affine_runtime::force::{Force, Motion, Spatial as SpatialForce};
+use affine_runtime::force::{Force, Motion, Space as OnSpace};
 use affine_runtime::model::{Conserved, Description};
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
@@ -32,7 +32,7 @@ impl<const N: usize> Potential<N> for Spring {
 struct Drag;
 
 impl<const N: usize> Force<N> for Drag {
-    type Form = SpatialForce;
+    type Form = OnSpace;
     fn force<T: Scalar>(&self, motion: &Motion<N, T>) -> Matrix<N, T> {
         motion.phi_dot * motion.phi.transpose() * -motion.t.cos()
     }

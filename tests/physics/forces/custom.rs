@@ -2,9 +2,9 @@
 //! the canonical momenta, `N = phi^-1 Q = Q_hat phi^-1`.
 
 use affine_oracle::{Kinetic, Random, State};
-use affine_runtime::force::{self, Comoving as ComovingForce, Force, Motion, Translation};
+use affine_runtime::force::{Body as OnBody, Force, Motion, Translation};
 use affine_runtime::model::{Conserved, Description, Quantity};
-use affine_runtime::potential::{self, Class, Place, Potential, Slopes};
+use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
 use affine_runtime::sampling;
 use affine_runtime::scalar::Scalar;
@@ -264,29 +264,29 @@ fn slope_at<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f64>) -> f6
 
 #[test]
 fn gyroscopic_forces_are_found_out() {
-    force::check::<2, _>(&Gyroscope { strength: 0.75 }, sampling::motions(20)).unwrap();
-    force::check::<3, _>(&Magnet { strength: 2.0 }, sampling::motions(20)).unwrap();
+    sampling::check_force::<2, _>(&Gyroscope { strength: 0.75 }, sampling::motions(20)).unwrap();
+    sampling::check_force::<3, _>(&Magnet { strength: 2.0 }, sampling::motions(20)).unwrap();
     // What claims nothing is not held against anything.
-    force::check::<3, _>(&Wind { strength: 2.0 }, sampling::motions(20)).unwrap();
+    sampling::check_force::<3, _>(&Wind { strength: 2.0 }, sampling::motions(20)).unwrap();
 
     struct False;
     impl Force<2> for False {
-        type Form = ComovingForce;
+        type Form = OnBody;
         const GYROSCOPIC: bool = true;
         fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Matrix<2, T> {
             motion.phi_dot
         }
     }
-    let found = force::check::<2, _>(&False, sampling::motions(20)).unwrap_err();
-    assert!(found.power.abs() > 0.01 * found.scale);
+    let found = sampling::check_force::<2, _>(&False, sampling::motions(20)).unwrap_err();
+    assert!(matches!(found, sampling::Unsound::Power { power, scale, .. } if power.abs() > 0.01 * scale));
     assert!(found.to_string().contains("gyroscopic"), "{found}");
 }
 
 #[test]
 fn classes_and_slopes_are_found_out() {
     fn sound<P: Potential<2> + Potential<3>>(potential: &P) {
-        potential::check::<2, _>(potential, sampling::places(20)).unwrap();
-        potential::check::<3, _>(potential, sampling::places(20)).unwrap();
+        sampling::check_potential::<2, _>(potential, sampling::places(20)).unwrap();
+        sampling::check_potential::<3, _>(potential, sampling::places(20)).unwrap();
     }
     sound(&Spring { strength: 0.75 });
     sound(&Fibre { strength: 0.75 });
@@ -305,10 +305,10 @@ fn classes_and_slopes_are_found_out() {
             if WRONG_SLOPE { Slopes { phi: slopes.phi.transpose(), ..slopes } } else { slopes }
         }
     }
-    let class = potential::check::<3, _>(&Off::<false>, sampling::places(20)).unwrap_err();
-    assert!(matches!(class, potential::Unsound::Class { class: Class::Isotropic, .. }), "{class}");
+    let class = sampling::check_potential::<3, _>(&Off::<false>, sampling::places(20)).unwrap_err();
+    assert!(matches!(class, sampling::Unsound::Class { class: Class::Isotropic, .. }), "{class}");
     assert!(class.to_string().contains("Isotropic"), "{class}");
-    let slope = potential::check::<3, _>(&Off::<true>, sampling::places(20)).unwrap_err();
-    assert!(matches!(slope, potential::Unsound::Slope { coordinate: (1, 2), .. }), "{slope}");
+    let slope = sampling::check_potential::<3, _>(&Off::<true>, sampling::places(20)).unwrap_err();
+    assert!(matches!(slope, sampling::Unsound::Slope { coordinate: (1, 2), .. }), "{slope}");
     assert!(slope.to_string().contains("phi[1,2]"), "{slope}");
 }

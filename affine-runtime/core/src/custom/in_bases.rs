@@ -4,8 +4,8 @@
 //! `dU/dx' = A^-T dU/dx`, `dU/dphi' = A^-T dU/dphi B^T`. No power changes: `tr(Q' Omega') = tr(Q Omega)`.
 
 use super::{Rows, Told, asked, components, matrix, place, rows};
-use crate::force::{Comoving, Force, Form, Spatial, Translation};
-use crate::frames::Vector;
+use crate::force::{Force, Form, Translation};
+use crate::frames::{Body, Space, Vector};
 use crate::metrics::Bases;
 use crate::potential::{Place, Potential, Slopes};
 use crate::scalar::Scalar;
@@ -22,7 +22,7 @@ fn asked_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N>>(
 
 /// `Q`.
 #[inline]
-pub fn spatial_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Spatial>>(
+pub fn spatial_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Space>>(
     force: &F,
     bases: &Bases<N, T>,
     told: Told<N, T>,
@@ -33,7 +33,7 @@ pub fn spatial_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Fo
 
 /// `Q_hat`.
 #[inline]
-pub fn comoving_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Comoving>>(
+pub fn comoving_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Force<N, Form = Body>>(
     force: &F,
     bases: &Bases<N, T>,
     told: Told<N, T>,

@@ -8,7 +8,7 @@
 use core::array::from_fn;
 
 use crate::frames::Matrix;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Scalar;
 
 /// Sweeps over all pairs of columns: convergence is quadratic, and over ten million placements of conditions up to 1e16
 /// these left no cosine between columns above 4e-16. For conditions of 1e32 it is 1e-11 in two of a million.
@@ -142,7 +142,7 @@ const NO_STRAIN: f64 = 1e-6;
 
 /// Log-stretches `q_a = ln Q_a` of a placement, in no order, with the errors of [`principal_log_stretches`].
 #[must_use]
-pub fn log_stretches<const N: usize, T: Real>(phi: &Matrix<N, T>) -> [T; N] {
+pub fn log_stretches<const N: usize, T: Scalar>(phi: &Matrix<N, T>) -> [T; N] {
     principal_log_stretches(from_fn(|i| from_fn(|a| phi[(i, a)]))).1
 }
 

@@ -31,40 +31,42 @@ pub struct Polar<const N: usize> {
     pub left_stretch: Matrix<N>,
 }
 
-/// `phi = L D R^T` with the stretches in descending order, `n` = 2 or 3.
-///
-/// Error of every stretch: a few units of rounding of the largest one. Relative to itself a few units of rounding for
-/// `n = 2`, whatever the matrix, and for `n = 3` where `phi` is a well-conditioned matrix with rescaled rows, or with
-/// rescaled columns; stretches may differ by a factor of `1e250`. `L`, `R` are orthogonal to a few units of rounding
-/// also where stretches coincide, exactly or nearly.
-///
-/// Method: for `n = 2` in closed form, with a determinant that is exact to rounding; for `n = 3` rotations of the columns
-/// until they are orthogonal (one-sided Jacobi: Hestenes, J. SIAM 6 (1958) 51; relative accuracy: Demmel and Veselic,
-/// SIAM J. Matrix Anal. Appl. 13 (1992) 1204), of `phi` or of its transpose, whichever is nearer to having orthogonal
-/// columns.
-///
-/// # Errors
-/// [`Error::Placement`] where an entry is not finite or the determinant is not positive, for `n = 3` as far as rounding
-/// shows it: certain where the condition number is below about `1/(10 eps)`.
-pub fn two_polar<const N: usize>(phi: &Matrix<N>) -> Result<TwoPolar<N>> {
-    const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
-    let refused = || Error::Placement { determinant: LogDeterminant::of(phi).to_f64() };
-    let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;
-    match proper && values.iter().all(|value| *value > 0.0) {
-        true => Ok(TwoPolar { left, stretches: values, right }),
-        false => Err(refused()),
+impl<const N: usize> Polar<N> {
+    /// `phi = U A = B U` from [`TwoPolar::of`].
+    ///
+    /// # Errors
+    /// Those of [`TwoPolar::of`].
+    pub fn of(phi: &Matrix<N>) -> Result<Self> {
+        TwoPolar::of(phi).map(|found| found.polar())
     }
 }
 
-/// `phi = U A = B U` from [`two_polar`].
-///
-/// # Errors
-/// Those of [`two_polar`].
-pub fn polar<const N: usize>(phi: &Matrix<N>) -> Result<Polar<N>> {
-    two_polar(phi).map(|found| found.polar())
-}
-
 impl<const N: usize> TwoPolar<N> {
+    /// `phi = L D R^T` with the stretches in descending order, `n` = 2 or 3.
+    ///
+    /// Error of every stretch: a few units of rounding of the largest one. Relative to itself a few units of rounding for
+    /// `n = 2`, whatever the matrix, and for `n = 3` where `phi` is a well-conditioned matrix with rescaled rows, or with
+    /// rescaled columns; stretches may differ by a factor of `1e250`. `L`, `R` are orthogonal to a few units of rounding
+    /// also where stretches coincide, exactly or nearly.
+    ///
+    /// Method: for `n = 2` in closed form, with a determinant that is exact to rounding; for `n = 3` rotations of the columns
+    /// until they are orthogonal (one-sided Jacobi: Hestenes, J. SIAM 6 (1958) 51; relative accuracy: Demmel and Veselic,
+    /// SIAM J. Matrix Anal. Appl. 13 (1992) 1204), of `phi` or of its transpose, whichever is nearer to having orthogonal
+    /// columns.
+    ///
+    /// # Errors
+    /// [`Error::Placement`] where an entry is not finite or the determinant is not positive, for `n = 3` as far as rounding
+    /// shows it: certain where the condition number is below about `1/(10 eps)`.
+    pub fn of(phi: &Matrix<N>) -> Result<Self> {
+        const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
+        let refused = || Error::Placement { determinant: LogDeterminant::of(phi).to_f64() };
+        let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;
+        match proper && values.iter().all(|value| *value > 0.0) {
+            true => Ok(Self { left, stretches: values, right }),
+            false => Err(refused()),
+        }
+    }
+
     /// `phi = L D R^T`.
     #[must_use]
     pub fn placement(&self) -> Matrix<N> {
@@ -95,9 +97,9 @@ impl<const N: usize> TwoPolar<N> {
     /// an eighth of a turn from one to the next.
     ///
     /// # Errors
-    /// Those of [`two_polar`].
+    /// Those of [`of`](Self::of).
     pub fn continued(&self, phi: &Matrix<N>) -> Result<Self> {
-        let next = two_polar(phi)?.turned_in_coincident_planes(self);
+        let next = Self::of(phi)?.turned_in_coincident_planes(self);
         let overlap = next.overlap(self);
         Ok(next.relabelled(&nearest_relabelling(&overlap)))
     }
@@ -126,7 +128,7 @@ impl<const N: usize> TwoPolar<N> {
             |a: usize, b: usize| self.stretches[a] - self.stretches[b] <= COINCIDENT * self.stretches[a];
         if N == 3 && near(0, N - 1) {
             // U nearest to the overlap; where that is singular no direction is nearest.
-            if let Ok(nearest) = polar(&self.overlap(other)) {
+            if let Ok(nearest) = Polar::of(&self.overlap(other)) {
                 self.left *= nearest.rotation;
                 self.right *= nearest.rotation;
             }

@@ -2,8 +2,9 @@
 
 use nalgebra::{ComplexField, DimName, Matrix2, Matrix3, Schur};
 
-use super::{Geodesic, Motion};
-use crate::frames::{Matrix, inverse};
+use super::{Geodesic, Orbit};
+use crate::frames::Matrix;
+use crate::matrix::inverse;
 
 /// Eigenvalues whose imaginary part is smaller, relative to their size, are real up to rounding: `det phi` comes as near to
 /// zero as its rounding.
@@ -23,7 +24,7 @@ impl<const N: usize> Geodesic<N> {
     /// to half the digits, and that of a symmetric `phi0^-1 phi_dot0` to all.
     #[must_use]
     pub fn collapse(&self, t_end: f64, start: &Matrix<N>) -> Option<f64> {
-        let Motion::Straight { velocity } = &self.motion else { return None };
+        let Orbit::Straight { velocity } = &self.motion else { return None };
         let rate = inverse(start) * velocity;
         if !rate.iter().all(|entry| entry.is_finite()) {
             return None;

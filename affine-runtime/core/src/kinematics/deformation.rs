@@ -2,28 +2,21 @@
 
 use super::dilatation::LogDeterminant;
 use super::momenta::trace_of_power;
-use crate::frames::{Comoving, Matrix, Spatial, inverse};
+use crate::frames::{Comoving, Matrix, Spatial};
+use crate::matrix::inverse;
 use crate::scalar::Real;
 
-/// Green deformation tensor `G = phi^T phi`, the spatial metric pulled back to the body.
+/// Deformation tensor, a metric carried along with the deformation: Green's `G = phi^T phi` in the body, that of space, and
+/// Cauchy's `C = phi^-T phi^-1` in space, that of the body.
 ///
-/// `phi -> A phi B` takes it to `B^T G B` for an orthogonal `A` and any `B`.
+/// `phi -> A phi B` takes `G` to `B^T G B` for an orthogonal `A` and any `B`, and `C` to `A^-T C A^-1` for an orthogonal `B` and
+/// any `A`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GreenTensor<const N: usize, T = f64>(pub Matrix<N, T>);
+pub struct DeformationTensor<const N: usize, T = f64>(pub Matrix<N, T>);
 
-/// Inverse Green deformation tensor `G^-1 = phi^-1 phi^-T`.
+/// Inverse deformation tensor: `G^-1 = phi^-1 phi^-T` in the body, `C^-1 = phi phi^T` in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InverseGreenTensor<const N: usize, T = f64>(pub Matrix<N, T>);
-
-/// Cauchy deformation tensor `C = phi^-T phi^-1`, the metric of the body carried to space.
-///
-/// `phi -> A phi B` takes it to `A^-T C A^-1` for an orthogonal `B` and any `A`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CauchyTensor<const N: usize, T = f64>(pub Matrix<N, T>);
-
-/// Inverse Cauchy deformation tensor `C^-1 = phi phi^T`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InverseCauchyTensor<const N: usize, T = f64>(pub Matrix<N, T>);
+pub struct InverseDeformationTensor<const N: usize, T = f64>(pub Matrix<N, T>);
 
 /// Strain: Lagrange's `E = (G - 1)/2` in the body, Euler's `e = (1 - C)/2` in space.
 ///
@@ -35,44 +28,40 @@ pub struct Strain<const N: usize, T = f64>(pub Matrix<N, T>);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InertialQuadrupole<const N: usize, T = f64>(pub Matrix<N, T>);
 
-impl<const N: usize, T: Real> GreenTensor<N, T> {
+impl<const N: usize, T: Real> DeformationTensor<N, T> {
     /// `G = phi^T phi`.
-    pub fn of(phi: &Matrix<N, T>) -> Comoving<Self> {
+    pub fn green(phi: &Matrix<N, T>) -> Comoving<Self> {
         Comoving(Self(phi.tr_mul(phi)))
     }
-}
 
-impl<const N: usize, T: Real> InverseGreenTensor<N, T> {
-    /// `G^-1 = phi^-1 phi^-T`; not finite where `phi` is singular.
-    pub fn of(phi: &Matrix<N, T>) -> Comoving<Self> {
-        let inverse = inverse(phi);
-        Comoving(Self(inverse * inverse.transpose()))
-    }
-}
-
-impl<const N: usize, T: Real> CauchyTensor<N, T> {
     /// `C = phi^-T phi^-1`; not finite where `phi` is singular.
-    pub fn of(phi: &Matrix<N, T>) -> Spatial<Self> {
+    pub fn cauchy(phi: &Matrix<N, T>) -> Spatial<Self> {
         let inverse = inverse(phi);
         Spatial(Self(inverse.tr_mul(&inverse)))
     }
 }
 
-impl<const N: usize, T: Real> InverseCauchyTensor<N, T> {
+impl<const N: usize, T: Real> InverseDeformationTensor<N, T> {
+    /// `G^-1 = phi^-1 phi^-T`; not finite where `phi` is singular.
+    pub fn green(phi: &Matrix<N, T>) -> Comoving<Self> {
+        let inverse = inverse(phi);
+        Comoving(Self(inverse * inverse.transpose()))
+    }
+
     /// `C^-1 = phi phi^T`.
-    pub fn of(phi: &Matrix<N, T>) -> Spatial<Self> {
+    pub fn cauchy(phi: &Matrix<N, T>) -> Spatial<Self> {
         Spatial(Self(phi * phi.transpose()))
     }
 }
 
-impl<const N: usize, T: Real> Comoving<GreenTensor<N, T>> {
+impl<const N: usize, T: Real> Comoving<DeformationTensor<N, T>> {
     /// `tr G^k`, the sum of the `2k`-th powers of the stretches.
     pub fn power_trace(&self, k: u32) -> T {
         trace_of_power(&self.0.0, k)
     }
 }
 
-impl<const N: usize, T: Real> Spatial<CauchyTensor<N, T>> {
+impl<const N: usize, T: Real> Spatial<DeformationTensor<N, T>> {
     /// `tr C^k`, the sum of the `-2k`-th powers of the stretches.
     pub fn power_trace(&self, k: u32) -> T {
         trace_of_power(&self.0.0, k)

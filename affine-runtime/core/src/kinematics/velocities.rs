@@ -1,7 +1,8 @@
 //! Affine and translational velocities between the frames, and their dilatation and shear.
 
 use super::dilatation::{deviator, integer};
-use crate::frames::{AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector, inverse};
+use crate::frames::{AffineVelocity, Comoving, Matrix, Spatial, TwoPoint, Vector};
+use crate::matrix::inverse;
 use crate::scalar::Real;
 
 /// Translational velocity: `x_dot` in space, `v_hat = phi^-1 x_dot` in the body.

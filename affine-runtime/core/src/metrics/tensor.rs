@@ -2,9 +2,7 @@
 
 use super::Bases;
 use crate::frames::{Comoving, Matrix, Spatial};
-use crate::kinematics::{
-    AngularMomentum, CauchyTensor, GreenTensor, InverseCauchyTensor, InverseGreenTensor, Strain, Vorticity,
-};
+use crate::kinematics::{AngularMomentum, DeformationTensor, InverseDeformationTensor, Strain, Vorticity};
 use crate::scalar::Real;
 
 /// A tensor with two indices in space, or two in the body, read off a phase point in orthonormal bases.
@@ -28,12 +26,12 @@ macro_rules! tensors {
 }
 
 tensors! {
-    Comoving<GreenTensor<N, T>>: |x, bases| bases.body.tr_mul(&x) * bases.body;
-    Comoving<InverseGreenTensor<N, T>>: |x, bases| bases.body_inverse * x * bases.body_inverse.transpose();
+    Comoving<DeformationTensor<N, T>>: |x, bases| bases.body.tr_mul(&x) * bases.body;
+    Comoving<InverseDeformationTensor<N, T>>: |x, bases| bases.body_inverse * x * bases.body_inverse.transpose();
     Comoving<Strain<N, T>>: |x, bases| bases.body.tr_mul(&x) * bases.body;
     Comoving<Vorticity<N, T>>: |x, bases| bases.body_inverse * x * bases.body;
-    Spatial<CauchyTensor<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
-    Spatial<InverseCauchyTensor<N, T>>: |x, bases| bases.space_inverse * x * bases.space_inverse.transpose();
+    Spatial<DeformationTensor<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
+    Spatial<InverseDeformationTensor<N, T>>: |x, bases| bases.space_inverse * x * bases.space_inverse.transpose();
     Spatial<Strain<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
     Spatial<AngularMomentum<N, T>>: |x, bases| bases.space_inverse * x * bases.space;
 }

@@ -2,8 +2,9 @@
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 
-use super::{Basis, PhasePoint, Translation};
+use super::PhasePoint;
 use crate::frames::Frame;
+use crate::parts::{Basis, Translation};
 use crate::state::Phase;
 
 /// All numbers of two points are, as they stand: in the model's own frame, and in its bases.

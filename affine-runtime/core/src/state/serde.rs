@@ -4,9 +4,10 @@
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use super::{Basis, Centre, PhasePoint, Pinned, Translation};
+use super::{Centre, PhasePoint, Pinned};
 use crate::frames::{Frame, Matrix, Vector};
 use crate::kinematics::LogDeterminant;
+use crate::parts::{Basis, Translation};
 use core::fmt;
 use core::marker::PhantomData;
 

@@ -2,9 +2,10 @@
 
 use nalgebra::{Affine2, Affine3, Isometry2, Isometry3, Rotation2, Rotation3, Translation2, Translation3};
 
-use super::{Basis, Euclidean, PhasePoint, Translation};
-use crate::decompose::polar;
+use super::{Euclidean, PhasePoint};
+use crate::decompose::Polar;
 use crate::frames::{Frame, Matrix};
+use crate::parts::{Basis, Translation};
 use crate::state::Phase;
 
 macro_rules! transforms {
@@ -28,7 +29,7 @@ macro_rules! transforms {
             /// `a -> x + R a` with the rotation of the polar decomposition `phi = R U`: `phi` itself of a rigid body.
             fn from(point: &PhasePoint<$n, F, C, f64, B>) -> Self {
                 let rotation =
-                    polar(point.phi()).map_or_else(|_| Matrix::<$n>::identity(), |polar| polar.rotation);
+                    Polar::of(point.phi()).map_or_else(|_| Matrix::<$n>::identity(), |polar| polar.rotation);
                 let rotation = $rotation::from_matrix_unchecked(rotation);
                 Self::from_parts($translation::from(point.x()), rotation.into())
             }

@@ -1,8 +1,8 @@
 //! The flow of a dilatation that has a closed form.
 
 use affine_core::__private::Breathing;
+use affine_core::decompose::mean_log_stretch;
 use affine_core::frames::Matrix;
-use affine_core::kinematics::mean_log_stretch;
 use affine_core::scalar::Real;
 
 /// `(e^(q1 - q) - 1, (p1 - p)/N)`, by which a placement grows and the diagonal of its affine momentum rises, from `q` of

@@ -5,7 +5,7 @@ use super::bodies::{Bodies, begun, has_fused_lanes};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
-use crate::integrate::{FusedArithmetic, fused_arithmetic};
+use crate::integrate::FusedArithmetic;
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
@@ -29,7 +29,7 @@ where
     /// What becomes of bodies, in their order. They go in lanes that are fused as their steps would be alone.
     pub(super) fn of<T: Lanes>(&self, starts: &[Start<N, H>]) -> Vec<Member<PointOf<N, H>, A>> {
         let fuses = starts.first().is_some_and(|start| has_fused_lanes(start.handle.model()));
-        match fused_arithmetic() {
+        match FusedArithmetic::here() {
             FusedArithmetic::InVectors if fuses => self.all_of::<T::Fused>(starts),
             _ => self.all_of::<T>(starts),
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::Ensemble;
 use crate::capability::InLanes;
 use crate::error::{Error, Result};
-use crate::lanes::Widest;
+use crate::lanes::F64x8;
 use crate::model::{Handle, Model};
 use crate::simulate::chunks::Folder;
 use crate::simulate::format::Format;
@@ -51,7 +51,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         let expected = self.expected_outputs();
         let add = |outputs: &mut Vec<_>, t, point: &PointOf<N, H>| outputs.push((t, *point));
         let begin = |_, _: &H| Vec::with_capacity(expected);
-        self.numbers(rest).chunks::<Widest, _, Error>(chunk.max(1), &begin, &add, |bodies| {
+        self.numbers(rest).chunks::<F64x8, _, Error>(chunk.max(1), &begin, &add, |bodies| {
             let (Some(first), Some(last)) = (bodies.first(), bodies.last()) else { return Ok(()) };
             let mut lines = String::new();
             table.clear();

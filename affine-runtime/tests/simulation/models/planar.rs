@@ -4,7 +4,7 @@
 
 use affine_runtime::__private::point as point_of;
 use affine_runtime::frames::{Canonical, Matrix, TwoPoint, Vector};
-use affine_runtime::geodesic::{Geodesic, Motion};
+use affine_runtime::geodesic::{Geodesic, Orbit};
 use affine_runtime::model::{Conserved, Description, Group, Model, Quantity, Regularity, Velocity};
 use affine_runtime::scalar::{Real, Scalar};
 use affine_runtime::state::{Phase, PhasePoint, Pinned};
@@ -108,13 +108,13 @@ impl<const DRIVEN: bool, const IN_PI: bool> Model<2> for Planar<DRIVEN, IN_PI> {
     fn geodesic(&self, t0: f64, point: &Disc) -> Option<Geodesic<2>> {
         (self.spring == 0.0 && self.singular_at.is_none()).then(|| Geodesic {
             t0,
-            motion: Motion::Straight { velocity: point.pi().0.0.transpose() },
+            motion: Orbit::Straight { velocity: point.pi().0.0.transpose() },
             drift: Vector::<2>::zeros(),
         })
     }
 
     fn on_geodesic(&self, geodesic: &Geodesic<2>, t: f64, start: &Disc) -> Disc {
-        let Motion::Straight { velocity } = geodesic.motion else { unreachable!("made above") };
+        let Orbit::Straight { velocity } = geodesic.motion else { unreachable!("made above") };
         point_of(start.phi() + velocity * (t - geodesic.t0), TwoPoint(start.pi().0.0), Pinned)
     }
 
