@@ -25,7 +25,8 @@ pub(crate) fn jacobi<T: Real>(u: T, m1: T) -> Jacobi<T> {
     let half = T::from_f64(0.5);
     let enough = T::EPSILON.sqrt();
     let (mut a, mut b) = (T::one(), m1);
-    let mut means = [(T::one(), T::one()); LEVELS];
+    // Half of the levels are enough down to the smallest numbers that doubles can be, and fewer are filled in sooner.
+    let mut means = [(T::one(), T::one()); LEVELS / 2];
     let mut last = 0;
     let mut c = T::one();
     for (level, mean) in means.iter_mut().enumerate() {

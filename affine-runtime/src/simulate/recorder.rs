@@ -180,18 +180,18 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
-        let mut known = None;
+        let (mut known, mut is_crossed) = (None, false);
         if sampling.by_ends && self.has_events() {
             match self.watcher.passes(model, (end, sampling.rate), at)? {
                 Step::Quiet => return Ok(false),
-                Step::Crossed(point) => known = Some(point),
-                Step::Open => {}
+                Step::Crossed(point) => (known, is_crossed) = (Some(point), true),
+                Step::Open(point) => known = point,
             }
         }
         let (mut count, mut samples) = (0, 0_u32);
         while self.has_events() && self.watcher.t() != end {
-            let sample = if known.is_some() { end } else { self.watcher.next(start, end, sampling) };
-            for met in self.watcher.look((sample, known), rate, at)? {
+            let sample = if is_crossed { end } else { self.watcher.next(start, end, sampling) };
+            for met in self.watcher.look((sample, known.filter(|_| sample == end)), rate, at)? {
                 count += 1;
                 self.watcher.happened(&met);
                 // Those before had happened when the run was interrupted.

@@ -54,6 +54,7 @@ macro_rules! primitive {
         impl Real for $type {
             const EPSILON: Self = <$type>::EPSILON;
 
+            #[inline]
             fn hypot(self, other: Self) -> Self {
                 let squares = self * self + other * other;
                 // Neither overflow nor a square that has lost digits to underflow and counts.

@@ -29,7 +29,7 @@ impl<const N: usize, P: Phase<N>> Watcher<'_, N, P> {
         (end, least): (f64, f64),
         at: &mut At<'_, P>,
     ) -> Result<Step<P>, Reason> {
-        let Some(knots) = &mut self.knots else { return Ok(Step::Open) };
+        let Some(knots) = &mut self.knots else { return Ok(Step::Open(None)) };
         let (point, _) = at(end)?;
         knots.swap(0, 1);
         model.knot(end, &point, &mut knots[1]);
@@ -49,7 +49,7 @@ impl<const N: usize, P: Phase<N>> Watcher<'_, N, P> {
             return Ok(Step::Crossed(point));
         }
         self.ways.clear();
-        Ok(Step::Open)
+        Ok(Step::Open(Some(point)))
     }
 
     /// Looks at the end of a step: whether a function is beyond zero there that counts; `None` where one has no side of zero

@@ -9,8 +9,8 @@ pub(in super::super) enum Step<P> {
     Quiet,
     /// Functions go through zero, each of them once; the point at the end.
     Crossed(P),
-    /// Samples have to be looked at.
-    Open,
+    /// Samples have to be looked at; the point at the end, where it is known.
+    Open(Option<P>),
 }
 
 /// The values of a function along a step, at its ends and after each quarter of it.
