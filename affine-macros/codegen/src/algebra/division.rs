@@ -18,10 +18,8 @@ pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
         });
     }
     let common = common.unwrap_or_default();
-    let mut rest = Polynomial::zero();
-    for (monomial, c) in polynomial.terms() {
-        rest.add_term(rest_of(monomial, &common), c);
-    }
+    let rest: Polynomial =
+        polynomial.terms().map(|(monomial, c)| Polynomial::term(rest_of(monomial, &common), c.clone())).sum();
     (common, rest)
 }
 
@@ -95,7 +93,7 @@ mod tests {
         assert_eq!(quotient(&sum(&product, &x, 1), &first), None);
         assert_eq!(quotient(&product, &Polynomial::zero()), None);
         let (common, rest) = content(&x.mul(&y).mul(&sum(&y, &z, 1)));
-        assert_eq!(Polynomial::term(common, Rational::ONE), x.mul(&y));
+        assert_eq!(Polynomial::monomial(common), x.mul(&y));
         assert_eq!(rest, sum(&y, &z, 1));
     }
 }

@@ -31,11 +31,7 @@ pub fn complete_sums(
             *polynomial = completed;
         }
     }
-    let total = |atoms: &Vec<Expr>| {
-        let mut sum = Polynomial::zero();
-        atoms.iter().for_each(|atom| sum.add_term(vec![*atom], &Rational::ONE));
-        sum
-    };
+    let total = |atoms: &Vec<Expr>| atoms.iter().map(|atom| Polynomial::monomial([*atom])).sum();
     sums.iter().map(|(atoms, symbol)| (*symbol, total(atoms))).collect()
 }
 

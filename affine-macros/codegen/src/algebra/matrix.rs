@@ -1,6 +1,7 @@
 //! Small symbolic matrices.
 
 use super::arena::{Arena, Expr};
+use crate::algebra::ring::table;
 use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
@@ -24,6 +25,6 @@ impl Matrix {
     #[must_use]
     pub fn transpose(&self) -> Self {
         let n = self.dim();
-        Self((0..n).map(|i| (0..n).map(|j| self.0[j][i]).collect()).collect())
+        Self(table(n, |i, j| self.0[j][i]))
     }
 }

@@ -4,6 +4,7 @@
 //! equal as functions of independent atoms exactly when they are equal as values.
 
 use std::cmp::Ordering;
+use std::iter::Sum;
 
 use super::arena::{Arena, Expr, Node};
 use super::fault::never_missing;
@@ -50,6 +51,18 @@ impl Polynomial {
         let mut result = Self::zero();
         result.add_term(monomial, &coefficient);
         result
+    }
+
+    /// The product of some atoms.
+    #[must_use]
+    pub fn monomial(atoms: impl Into<Monomial>) -> Self {
+        Self::term(atoms.into(), Rational::ONE)
+    }
+
+    /// The normal form of `1/expr`; `None` of the number zero.
+    pub fn reciprocal(arena: &mut Arena, expr: Expr) -> Option<Self> {
+        let reciprocal = arena.pow(expr, -1)?;
+        Some(Self::normal_form(arena, reciprocal))
     }
 
     /// The normal form of an expression.
@@ -227,6 +240,28 @@ impl Polynomial {
         result
     }
 
+    /// `self + other`.
+    #[must_use]
+    pub fn add(&self, other: &Self) -> Self {
+        let mut result = self.clone();
+        result.add_scaled(other, &Rational::ONE);
+        result
+    }
+
+    /// `self - other`.
+    #[must_use]
+    pub fn sub(&self, other: &Self) -> Self {
+        let mut result = self.clone();
+        result.add_scaled(other, &Rational::MINUS_ONE);
+        result
+    }
+
+    /// `-self`.
+    #[must_use]
+    pub fn neg(&self) -> Self {
+        self.scaled(&Rational::MINUS_ONE)
+    }
+
     /// `weight * self`.
     #[must_use]
     pub fn scaled(&self, weight: &Rational) -> Self {
@@ -296,6 +331,28 @@ impl Polynomial {
     /// Does any term contain an atom for which `wanted` holds?
     pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
         self.atoms().any(|atom| wanted(*atom))
+    }
+}
+
+impl Sum for Polynomial {
+    fn sum<I: Iterator<Item = Self>>(summands: I) -> Self {
+        let mut sum = Self::zero();
+        for summand in summands {
+            match () {
+                () if sum.is_zero() => sum = summand,
+                () if summand.terms.len() < COLLECTED => {
+                    summand.terms.into_iter().for_each(|(monomial, c)| sum.add_term(monomial, &c));
+                }
+                () => sum.collect(summand.terms),
+            }
+        }
+        sum
+    }
+}
+
+impl<'a> Sum<&'a Polynomial> for Polynomial {
+    fn sum<I: Iterator<Item = &'a Self>>(summands: I) -> Self {
+        summands.cloned().sum()
     }
 }
 

@@ -63,8 +63,23 @@ impl Ring for Residue {
 pub type Square<R> = Vec<Vec<R>>;
 
 /// The matrix with the given entries.
-pub fn table<R>(n: usize, entry: impl Fn(usize, usize) -> R) -> Square<R> {
+pub fn table<R>(n: usize, mut entry: impl FnMut(usize, usize) -> R) -> Square<R> {
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// All places of a square matrix, row after row.
+pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+}
+
+/// The places on and above its diagonal.
+pub fn upper(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (a..n).map(move |b| (a, b)))
+}
+
+/// The places above its diagonal.
+pub fn above_diagonal(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (a + 1..n).map(move |b| (a, b)))
 }
 
 /// `a b`.

@@ -1,5 +1,6 @@
 //! What is computed together: the rates of a system, and what a closed form reads.
 
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::equations::System;
@@ -26,7 +27,7 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
     let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
     let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
     let half = Rational::HALF;
-    for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
+    for (a, b) in above_diagonal(chart.dim) {
         let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
         let [symmetric, skew] = [Aspect::Symmetric, Aspect::Skew].map(|aspect| arena.about(aspect, upper));
         // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.

@@ -144,7 +144,7 @@ impl Body<'_> {
         } else if let Some(mass) = self.motion.masses.single() {
             let mass = Polynomial::normal_form(arena, mass);
             for v in v {
-                let square = Polynomial::term(vec![*v, *v], Rational::ONE);
+                let square = Polynomial::monomial([*v, *v]);
                 energy.results[0].1.add_product(&square, &mass, &Rational::HALF);
             }
         }

@@ -1,6 +1,7 @@
 //! What is computed when the fields have values: conditions, coefficients, inverse blocks.
 
 use crate::algebra::bind::Constants;
+use crate::algebra::ring::upper;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
@@ -108,9 +109,4 @@ fn form_block(arena: &mut Arena, form: &[Vec<Polynomial>], positive: bool) -> Nu
     let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
     let program = unbound(arena, entries.into_iter().chain(sizes));
     NumericBlock { program, inverse: Vec::new(), basis: Vec::new(), size, positive }
-}
-
-/// Places of an upper triangle, row after row.
-fn upper(size: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..size).flat_map(move |i| (i..size).map(move |j| (i, j)))
 }

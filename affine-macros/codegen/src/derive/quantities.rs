@@ -1,7 +1,7 @@
 //! Quantities that are emitted when asked for.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
@@ -169,7 +169,7 @@ fn inverse(
 /// with `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
 fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
     let (n, phi) = (h.dim, &chart.phi.0);
-    let pairs = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
+    let pairs = || pairs(n);
     let slope = |i: usize, a: usize, b: usize, j: usize| {
         let mut sum = Polynomial::zero();
         match h.frame {
@@ -228,7 +228,7 @@ fn columns(
 }
 
 fn pair(left: Expr, right: Expr) -> Polynomial {
-    Polynomial::term(vec![left, right], Rational::ONE)
+    Polynomial::monomial([left, right])
 }
 
 fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {

@@ -4,6 +4,7 @@ use super::components;
 use super::constant::constant;
 use super::traces::{self, entry};
 use crate::algebra::arena::Node;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::Base;
 use crate::spec::{Expression, ExpressionKind, numbered};
@@ -100,7 +101,7 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
         }
         ExpressionKind::Pairs(f) => {
             let mut terms = Vec::new();
-            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+            for (a, b) in above_diagonal(n) {
                 let difference = difference_of(arena, a, b);
                 let difference = Some(difference);
                 terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));

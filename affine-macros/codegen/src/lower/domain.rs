@@ -3,6 +3,7 @@
 
 use super::base_functions::{Reading, difference_of, is_positive, value};
 use super::constant::constant;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function};
 use crate::mechanics::potential::{Bound, Guard};
 use crate::spec::{Expression, ExpressionKind};
@@ -30,7 +31,7 @@ impl Guards<'_> {
     fn read(&mut self, part: &Expression, difference: Option<Expr>) {
         if let ExpressionKind::Pairs(one) = &part.kind {
             let n = self.n;
-            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+            for (a, b) in above_diagonal(n) {
                 let difference = difference_of(self.arena, a, b);
                 self.read(one, Some(difference));
             }

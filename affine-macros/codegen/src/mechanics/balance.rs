@@ -84,7 +84,7 @@ impl Laws {
             None => product(&inverse, &phi_dot),
         };
         let omega_hat = shared.matrix(Quantity::ComovingAffineVelocity, &omega_hat);
-        let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
+        let negative = |entry: &Polynomial| entry.neg();
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {
             Vec::new()

@@ -11,7 +11,7 @@ use super::charts::{Chart, Coordinate, Linear, Momentum};
 /// `{a, b}` of two coordinates of a chart.
 #[must_use]
 pub fn bracket(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
-    if a > b { ordered(chart, b, a).scaled(&Rational::MINUS_ONE) } else { ordered(chart, a, b) }
+    if a > b { ordered(chart, b, a).neg() } else { ordered(chart, a, b) }
 }
 
 /// `{a, b}` for `a` not after `b` in the order `x, phi, p, M`.

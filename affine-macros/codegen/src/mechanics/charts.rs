@@ -1,6 +1,6 @@
 //! Charts of phase space: which momenta stand beside `x` and `phi`.
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
@@ -174,7 +174,7 @@ impl Chart {
     #[must_use]
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let n = self.dim;
-        let pairs = || (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)));
+        let pairs = || pairs(n);
         let mut all: Vec<Coordinate> = (0..self.x.len()).map(Coordinate::X).collect();
         all.extend(pairs().map(|(i, a)| Coordinate::Phi(i, a)));
         all.extend((0..self.p.len()).map(Coordinate::P));

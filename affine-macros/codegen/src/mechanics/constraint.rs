@@ -105,8 +105,7 @@ impl Constraint {
         let mut list = Vec::new();
         match self {
             Self::Isochoric => {
-                let mut sum = Polynomial::zero();
-                (0..n - 1).for_each(|a| sum.add_scaled(&minus(m.0[a][a]), &Rational::ONE));
+                let sum: Polynomial = (0..n - 1).map(|a| minus(m.0[a][a])).sum();
                 list.push((m.0[n - 1][n - 1], sum));
             }
             Self::Rigid => list.extend((0..n).map(|a| (m.0[a][a], Polynomial::zero()))),

@@ -5,7 +5,7 @@
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, product, sum, table, transpose};
+use crate::algebra::ring::{Square, pairs, product, sum, table, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -127,7 +127,7 @@ impl Custom {
             Role::Potential { class, moves } => self.slopes(&mut shared, chart, class, moves),
         };
         let mut forces = Vec::new();
-        for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
+        for (a, b) in pairs(chart.dim) {
             let mut force = affine[a][b].clone();
             if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
                 force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
@@ -215,7 +215,7 @@ impl Custom {
         let n = chart.dim;
         let (along_x, along_phi) =
             (self.vector(shared.arena, n), self.matrix(shared.arena, Quantity::FieldSlope, n));
-        let opposite = self.by.unit(shared.arena).scaled(&Rational::MINUS_ONE);
+        let opposite = self.by.unit(shared.arena).neg();
         let negative = |symbol: &Expr| opposite.mul(&Polynomial::atom(*symbol));
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
         let affine = shared.on_own(chart, &push);

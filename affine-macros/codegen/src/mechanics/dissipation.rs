@@ -6,7 +6,7 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, pairs, product, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -108,7 +108,7 @@ impl Dissipation {
         let (affine, mut power) = self.affine_force(&mut shared, chart);
         let centre = self.centre_force(&mut shared, chart, velocity, &mut power);
         let mut forces = Vec::new();
-        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
+        for (a, b) in pairs(self.dim) {
             let mut force = affine[a][b].clone();
             if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
                 force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
@@ -144,7 +144,7 @@ impl Dissipation {
             };
             let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
             let drag = shared.matrix(drag(frame), &part.force(&velocity));
-            for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            for (a, b) in pairs(n) {
                 power.add_product(&drag[a][b], &velocity[b][a], &Rational::ONE);
             }
             match frame {

@@ -57,11 +57,7 @@ impl Hamiltonian {
         // X = (dT/dO)^T: the momentum conjugate to O_ab is X_ba.
         let conjugate: Vec<Expr> = momentum.transpose().0.into_iter().flatten().collect();
         let linear_form = |row: &Vec<Polynomial>| {
-            let mut sum = Polynomial::zero();
-            for (c, x) in row.iter().zip(&conjugate) {
-                sum.add_product(c, &Polynomial::atom(*x), &Rational::ONE);
-            }
-            sum
+            row.iter().zip(&conjugate).map(|(c, x)| c.mul(&Polynomial::atom(*x))).sum()
         };
         let mut flat: Vec<Polynomial> = inverse.matrix.iter().map(linear_form).collect();
         let weight = Weight::of(arena, kinetic);
@@ -176,11 +172,7 @@ impl Hamiltonian {
             (Frame::Body, Some(Linear::Space)) => comoving(chart),
             _ => chart.p.iter().map(|p| Polynomial::atom(*p)).collect(),
         };
-        let mut sum = Polynomial::zero();
-        for p in &squares {
-            sum.add_product(&p.mul(p), inverse_mass, &Rational::HALF);
-        }
-        sum
+        squares.iter().map(|p| p.mul(p).mul(inverse_mass).scaled(&Rational::HALF)).sum()
     }
 }
 
@@ -238,23 +230,16 @@ impl Isotropic {
 /// `tr X^3`.
 fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
     let n = spin.len();
-    let mut trace = Polynomial::zero();
-    for (a, b, c) in (0..n).flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c)))) {
-        trace.add_product(&spin[a][b].mul(&spin[b][c]), &spin[c][a], &Rational::ONE);
-    }
-    trace
+    (0..n)
+        .flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c))))
+        .map(|(a, b, c)| spin[a][b].mul(&spin[b][c]).mul(&spin[c][a]))
+        .sum()
 }
 
 /// `p_hat = phi^T p`.
 fn comoving(chart: &Chart) -> Vec<Polynomial> {
     (0..chart.dim)
-        .map(|a| {
-            let mut sum = Polynomial::zero();
-            for (i, p) in chart.p.iter().enumerate() {
-                sum.add_term(vec![chart.phi.0[i][a], *p], &Rational::ONE);
-            }
-            sum
-        })
+        .map(|a| chart.p.iter().enumerate().map(|(i, p)| Polynomial::monomial([chart.phi.0[i][a], *p])).sum())
         .collect()
 }
 
@@ -298,8 +283,7 @@ fn isotropic(
             found = Some(eigenvalue);
         }
         let value = found?.expression(arena);
-        let reciprocal = arena.pow(value, -1)?;
-        Some(Polynomial::normal_form(arena, reciprocal))
+        Polynomial::reciprocal(arena, value)
     };
     let shear = common(Direction::Shear)?;
     let rotation = common(Direction::Rotation)?;

@@ -2,6 +2,7 @@
 
 use crate::algebra::fault::never_missing;
 use crate::algebra::linear::{self, Inertia};
+use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -242,9 +243,9 @@ impl Inverse {
         }
         let b = self.numeric_blocks.len() + 1;
         let size = block.form.len();
-        let mut symbol =
+        let symbol =
             |i: usize, j: usize| arena.symbol(Quantity::InverseBlock.at([b, i.min(j) + 1, i.max(j) + 1]));
-        let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
+        let inverse: Vec<Vec<Expr>> = table(size, symbol);
         self.numeric_blocks.push(NumericBlock {
             basis: block.velocities.clone(),
             form: block.form.clone(),

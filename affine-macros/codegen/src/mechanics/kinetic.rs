@@ -1,6 +1,6 @@
 //! The kinetic energy, term by term, in the velocity of its frame.
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
@@ -138,9 +138,7 @@ impl Kinetic {
     /// The internal energy `T_int`.
     #[must_use]
     pub fn internal_energy(&self) -> Polynomial {
-        let mut sum = Polynomial::zero();
-        self.internal.iter().for_each(|(_, energy)| sum.add_scaled(energy, &Rational::ONE));
-        sum
+        self.internal.iter().map(|(_, energy)| energy).sum()
     }
 
     /// `d^2 T_int / dO_k dO_l` on the entries of the velocity, row-major.
@@ -172,10 +170,10 @@ fn common(
 fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
     let n = o.dim();
     let half = Rational::HALF;
-    let pairs = || (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+    let pairs = || pairs(n);
     let mut energy = Polynomial::zero();
     let mut add = |left: Expr, coefficient: &Polynomial, right: Expr| {
-        energy.add_product(coefficient, &Polynomial::term(vec![left, right], Rational::ONE), &half);
+        energy.add_product(coefficient, &Polynomial::monomial([left, right]), &half);
     };
     match &term.value {
         Coefficient::Scalar(c) => {

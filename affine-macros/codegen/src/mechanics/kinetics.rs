@@ -11,7 +11,7 @@ mod action;
 mod lagrangian;
 mod ways;
 
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::brackets::{bracket, gradient};
@@ -126,8 +126,4 @@ fn paired(chart: &Chart, z: Coordinate, slopes: &[(Coordinate, Polynomial)]) -> 
         }
     }
     sum
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
 }

@@ -122,8 +122,7 @@ impl Stated {
         }
         let mut reciprocal = |(_, value): (Direction, Polynomial)| -> Option<Polynomial> {
             let value = value.expression(arena);
-            let reciprocal = arena.pow(value, -1)?;
-            Some(Polynomial::normal_form(arena, reciprocal))
+            Polynomial::reciprocal(arena, value)
         };
         let [shear, rotation, dilatation] = self.unconfined_eigenvalues();
         // What no velocity reads is chosen so that the terms are few.

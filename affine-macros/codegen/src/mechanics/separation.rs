@@ -75,7 +75,7 @@ impl Slope {
             [] => Some(Self::Zero),
             [((1, 0), stiffness)] => Some(Self::Linear(stiffness.clone())),
             [((0, low), lower), ((0, high), upper)] if *low == -*high => {
-                (*lower == upper.scaled(&Rational::MINUS_ONE)).then(|| Self::hyperbolic(upper, *high))?
+                (*lower == upper.neg()).then(|| Self::hyperbolic(upper, *high))?
             }
             _ => None,
         }

@@ -1,7 +1,7 @@
 //! Quantities that forces share: velocities, `phi^-1`, forces themselves.
 
-use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, adjugate, pairs, product, table, times, transpose};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -55,7 +55,7 @@ impl Shared<'_> {
     ) -> Square<Polynomial> {
         let of = of.into();
         let mut result = values.clone();
-        for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
+        for (i, j) in pairs(values.len()) {
             result[i][j] = self.named(of.at([i + 1, j + 1]), &values[i][j]);
         }
         result
@@ -64,10 +64,8 @@ impl Shared<'_> {
     /// `phi^-1`, with the names that potentials have for the determinant and its reciprocal.
     pub(super) fn inverse(&mut self, phi: &Square<Polynomial>) -> Square<Polynomial> {
         let cofactors = adjugate(phi);
-        let mut determinant = Polynomial::zero();
-        for (entry, row) in phi[0].iter().zip(&cofactors) {
-            determinant.add_product(entry, &row[0], &Rational::ONE);
-        }
+        let determinant: Polynomial =
+            phi[0].iter().zip(&cofactors).map(|(entry, row)| entry.mul(&row[0])).sum();
         self.named(Quantity::Determinant, &determinant);
         let det = self.arena.symbol(Quantity::Determinant);
         // A symbol is not the number zero.

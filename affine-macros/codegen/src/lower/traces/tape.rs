@@ -89,8 +89,7 @@ impl Tape<'_> {
 
     pub(super) fn named(&mut self, matrix: MatrixName) -> usize {
         let n = self.n;
-        let value =
-            (0..n).map(|a| (0..n).map(|b| entry(matrix, a, b).symbol(self.arena)).collect()).collect();
+        let value = table(n, |a, b| entry(matrix, a, b).symbol(self.arena));
         self.put(value, Made::Named(matrix), None)
     }
 
@@ -106,7 +105,7 @@ impl Tape<'_> {
             let terms: Vec<_> = terms.iter().map(|(k, c)| (nodes[*k].value[a][b], c.clone())).collect();
             arena.linear(&terms)
         };
-        let value = (0..n).map(|a| (0..n).map(|b| entry(self.arena, &self.nodes, a, b)).collect()).collect();
+        let value = table(n, |a, b| entry(self.arena, &self.nodes, a, b));
         self.put(value, Made::Sum(terms), None)
     }
 
@@ -192,12 +191,12 @@ pub(super) fn transposed(matrix: &Square<Expr>) -> Square<Expr> {
 /// The product of two matrices, whose entries stay sums of products; of a symmetric one each pair is one entry.
 pub(super) fn times(arena: &mut Arena, left: &Square<Expr>, right: &Square<Expr>) -> Square<Expr> {
     let n = left.len();
-    let mut entry = |i: usize, j: usize| {
+    let entry = |i: usize, j: usize| {
         let products: Vec<(Expr, Rational)> =
             (0..n).map(|k| (arena.mul(left[i][k], right[k][j]), Rational::ONE)).collect();
         arena.linear(&products)
     };
-    let mut product: Square<Expr> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    let mut product: Square<Expr> = table(n, entry);
     for (i, j) in (0..n).flat_map(|j| (0..j).map(move |i| (i, j))) {
         if product[i][j] != product[j][i] {
             let difference = arena.sub(product[i][j], product[j][i]);

@@ -84,7 +84,7 @@ fn translation(
             Known { value: sum.value(), shape: Shape::Other, components }
         };
     let one = Polynomial::constant(Rational::ONE);
-    let minus = inverse_mass.scaled(&Rational::MINUS_ONE);
+    let minus = inverse_mass.neg();
     let placement = || Sentence::from(letters::PLACEMENT);
     let spatial = || Sentence::from(letters::LINEAR_MOMENTUM);
     // p_hat, or phi^T p where p is the momentum of the chart.

@@ -4,7 +4,7 @@
 //! `E G = (E phi)^T phi + phi^T E phi`: for `Sigma_hat`, `E_AB psi_Cj = -d_CB psi_Aj` and
 //! `E_AB G_CD = d_CA G_BD + d_DA G_CB`.
 
-use crate::algebra::ring::{Square, product, table, transpose};
+use crate::algebra::ring::{Square, pairs, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::brackets::bracket;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -28,7 +28,7 @@ impl Action {
         let (inverse, green) = quantities.split_at(n * n);
         let psi = table(n, |a, i| Polynomial::atom(inverse[n * a + i]));
         let unit = |a: usize, b: usize| Polynomial::constant(Rational::from(i64::from(a == b)));
-        let places: Vec<(usize, usize)> = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).collect();
+        let places: Vec<(usize, usize)> = pairs(n).collect();
         let known = |value: &dyn Fn(usize, usize) -> Polynomial, sums: &Square<Polynomial>| -> Vec<_> {
             places.iter().map(|(a, b)| (value(*a, *b), sums[*a][*b].clone())).collect()
         };
@@ -40,7 +40,7 @@ impl Action {
             let of_inverse = product(&product(&psi, &moved), &psi);
             let of_green = product(&transpose(&moved), &phi);
             let mut image = moved.concat();
-            image.extend(of_inverse.concat().iter().map(|p| p.by_names(&units).scaled(&Rational::MINUS_ONE)));
+            image.extend(of_inverse.concat().iter().map(|p| p.by_names(&units).neg()));
             for (c, d) in &places {
                 let mut both = of_green[*c][*d].clone();
                 both.add_scaled(&of_green[*d][*c], &Rational::ONE);
@@ -67,8 +67,6 @@ impl Action {
 /// The entries of `psi = phi^-1` and of `G`.
 pub(super) fn of_the_placement(arena: &mut Arena, n: usize) -> Vec<Expr> {
     let mut list = Matrix::symbols(arena, Quantity::InversePlacement, n).0.concat();
-    list.extend(
-        (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).map(|(a, b)| Base::Green(a, b).symbol(arena)),
-    );
+    list.extend(pairs(n).map(|(a, b)| Base::Green(a, b).symbol(arena)));
     list
 }

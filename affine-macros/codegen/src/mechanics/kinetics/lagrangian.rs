@@ -137,11 +137,7 @@ impl Lagrangian {
 
 /// `sum over k of slopes_k values_k`.
 fn chain(slopes: &[Polynomial], values: impl Iterator<Item = Polynomial>) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (slope, value) in slopes.iter().zip(values) {
-        sum.add_product(slope, &value, &Rational::ONE);
-    }
-    sum
+    slopes.iter().zip(values).map(|(slope, value)| slope.mul(&value)).sum()
 }
 
 /// The values by their names, where there are names; values that are symbols already stay what they are.

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use crate::algebra::linear;
+use crate::algebra::ring::upper;
 use crate::algebra::root::root;
 use crate::algebra::{Polynomial, Rational};
 
@@ -53,7 +54,7 @@ impl Axes {
     pub fn pattern(metric: &[Vec<Polynomial>]) -> Self {
         let n = metric.len();
         let mut filled = vec![vec![false; n]; n];
-        for (k, j) in (0..n).flat_map(|k| (k..n).map(move |j| (k, j))) {
+        for (k, j) in upper(n) {
             filled[k][j] = k == j || !metric[k][j].is_zero() || (0..k).any(|i| filled[i][k] && filled[i][j]);
         }
         // U^-1 is a sum of products of entries above the diagonal.

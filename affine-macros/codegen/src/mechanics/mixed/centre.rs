@@ -104,10 +104,7 @@ impl Masses {
         ]
         .map(|of| arena.components(of, n));
         let mut shared = Definitions::new();
-        let reciprocal = |arena: &mut Arena, mass: Expr| {
-            let reciprocal = arena.pow(mass, -1)?;
-            Some(Polynomial::normal_form(arena, reciprocal))
-        };
+        let reciprocal = |arena: &mut Arena, mass: Expr| Polynomial::reciprocal(arena, mass);
         match (self.body, self.space) {
             (None, None) => return None,
             (None, Some(mass)) => {
@@ -160,8 +157,8 @@ impl Masses {
         let n = self.dim;
         let half = Rational::HALF;
         let part = |arena: &mut Arena, mass: Expr, velocities: Vec<Expr>| {
-            let mut energy = Polynomial::zero();
-            velocities.iter().for_each(|v| energy.add_term(vec![*v, *v], &half));
+            let energy: Polynomial =
+                velocities.iter().map(|v| Polynomial::term(vec![*v, *v], half.clone())).sum();
             let energy = energy.mul(&Polynomial::normal_form(arena, mass));
             let (slopes, momenta) = (Vec::new(), Vec::new());
             Part { velocities, definitions: None, energy, slopes, momenta }

@@ -8,7 +8,7 @@
 
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, upper};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::group_point::GroupPoint;
@@ -92,10 +92,7 @@ impl Factorisation {
         let mut list: Vec<(SymmetricBlock, usize)> = Vec::new();
         for block in &self.blocks {
             let size = block.form.len();
-            let upper: Vec<Polynomial> = (0..size)
-                .flat_map(|i| (i..size).map(move |j| (i, j)))
-                .map(|(i, j)| block.form[i][j].clone())
-                .collect();
+            let upper: Vec<Polynomial> = upper(size).map(|(i, j)| block.form[i][j].clone()).collect();
             match list.iter_mut().find(|(known, _)| known.upper == upper) {
                 Some((_, count)) => *count += 1,
                 None => list.push((SymmetricBlock { upper, size }, 1)),
@@ -115,11 +112,8 @@ impl Factorisation {
     ) {
         let mut sums = vec![Polynomial::zero(); right.len()];
         for (which, block) in self.blocks.iter().enumerate() {
-            let along = |direction: &Direction| {
-                let mut sum = Polynomial::zero();
-                direction.iter().for_each(|(k, weight)| sum.add_scaled(&right[*k], weight));
-                sum
-            };
+            let along =
+                |direction: &Direction| direction.iter().map(|(k, weight)| right[*k].scaled(weight)).sum();
             let right: Vec<Polynomial> = block.basis.iter().map(along).collect();
             let values = block.solve(arena, (of, which), &right, solution, shared);
             for (direction, value) in block.basis.iter().zip(&values) {

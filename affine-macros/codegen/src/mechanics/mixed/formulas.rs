@@ -104,7 +104,7 @@ pub fn internal_equations(
     if masses.body.is_some() {
         let mut sum = Sum::default();
         sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
-        let space = space_mass(arena, masses).scaled(&Rational::MINUS_ONE);
+        let space = space_mass(arena, masses).neg();
         sum.add(arena, notation, &space, rate(letters::CENTRE));
         let own = sum.value().transposed();
         force.push(Summand::minus(product([placement().inverse(), rate(letters::CENTRE), own])));
@@ -134,7 +134,7 @@ pub fn confined_equations(
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
     if let Some(mass) = masses.body {
-        let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
+        let mass = Polynomial::normal_form(arena, mass).neg();
         let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
         force.add(arena, notation, &mass, product([v(), v().transposed()]));
     }

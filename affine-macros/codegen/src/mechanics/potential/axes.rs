@@ -1,5 +1,6 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
@@ -105,7 +106,7 @@ impl OnAxes {
 
 /// Symbols of entries beside the diagonal.
 fn off_diagonal(arena: &mut Arena, n: usize) -> Vec<Expr> {
-    let pairs = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).filter(|(a, b)| a != b);
+    let pairs = pairs(n).filter(|(a, b)| a != b);
     pairs
         .flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b), Base::Placement(a, b)])
         .map(|base| base.symbol(arena))
@@ -155,7 +156,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
         // A symbol is not the number zero.
         list.push((inverse, Polynomial::atom(arena.reciprocal(*stretch))));
         let square = arena.symbol(Quantity::StretchSquared.at([a + 1]));
-        list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
+        list.push((square, Polynomial::monomial([*stretch, *stretch])));
         trace.add_term(vec![square], &Rational::ONE);
         of_square.add_term(vec![square, square], &Rational::ONE);
         of_cube.add_term(vec![square, square, square], &Rational::ONE);

@@ -1,5 +1,6 @@
 //! The functions of placement and position that potentials are written in.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -49,7 +50,7 @@ pub(super) enum Along {
 impl Base {
     /// All base functions in dimension `n`.
     pub fn all(n: usize) -> Vec<Self> {
-        let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
+        let pairs = || pairs(n);
         let upper = || pairs().filter(|(a, b)| a <= b);
         let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];
         list.extend((0..n).map(Self::LogStretch));

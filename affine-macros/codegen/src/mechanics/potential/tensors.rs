@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::algebra::ring::{Ring, Square, adjugate};
+use crate::algebra::ring::{Ring, Square, adjugate, pairs, table, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::symbol::{Quantity, Symbol};
@@ -29,7 +29,7 @@ impl<R: Ring> Tensors<R> {
         let n = self.phi.len();
         let mut values = HashMap::new();
         let (mut trace, mut of_square, mut of_cube) = (R::zero(), R::zero(), R::zero());
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             of_square.plus_product(&self.green[a][b], &self.green[a][b], &Rational::ONE);
             of_cube.plus_product(&self.green[a][b], &self.squares[0][a][b], &Rational::ONE);
             if a == b {
@@ -48,7 +48,7 @@ impl<R: Ring> Tensors<R> {
 pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynomial)> {
     let phi = chart.placement();
     let mut list = Vec::new();
-    for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+    for (a, b) in upper(n) {
         list.push((Base::Green(a, b).symbol(arena), green(&phi, a, b)));
         list.push((Base::Finger(a, b).symbol(arena), finger(&phi, a, b)));
     }
@@ -60,14 +60,14 @@ pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Ex
     let squares = squares(arena, n, SQUARES);
     for (base, of) in [(Base::Green as fn(usize, usize) -> Base, 0), (Base::Finger, 1)] {
         let tensor: Square<Polynomial> = {
-            let mut symbol = |a, b| Polynomial::atom(base(a, b).symbol(arena));
-            (0..n).map(|a| (0..n).map(|b| symbol(a, b)).collect()).collect()
+            let symbol = |a, b| Polynomial::atom(base(a, b).symbol(arena));
+            table(n, symbol)
         };
         list.extend(definitions_of_square(&tensor, &squares[of]));
     }
     let (mut trace, mut of_square, mut of_cube) =
         (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+    for (a, b) in pairs(n) {
         let value = entry(arena, a, b);
         of_square.add_product(&value, &value, &Rational::ONE);
         of_cube.add_product(&value, &squares[usize::from(spatial)][a][b], &Rational::ONE);
@@ -91,7 +91,7 @@ pub(super) const UNIT_SQUARES: [Quantity; 2] = [Quantity::UnitGreenSquare, Quant
 pub(super) fn squares(arena: &mut Arena, n: usize, of: [Quantity; 2]) -> [Square<Polynomial>; 2] {
     of.map(|square| {
         let mut entry = |a: usize, b: usize| arena.symbol(square.at([a.min(b) + 1, a.max(b) + 1]));
-        (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+        table(n, |a, b| Polynomial::atom(entry(a, b)))
     })
 }
 
@@ -101,7 +101,7 @@ pub(super) fn definitions_of_square(
     square: &Square<Polynomial>,
 ) -> Vec<(Expr, Polynomial)> {
     let n = tensor.len();
-    let pairs = (0..n).flat_map(|a| (a..n).map(move |b| (a, b)));
+    let pairs = upper(n);
     let defined = pairs.filter_map(|(a, b)| {
         let symbol = square[a][b].atoms().next().copied()?;
         Some((symbol, entry_of_product(tensor, tensor, a, b)))

@@ -107,7 +107,7 @@ fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) ->
         expansion = Polynomial::atom(shared);
     }
     if carries_r {
-        let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::MINUS_ONE);
+        let rate = Polynomial::atom(r).mul(&expansion).neg();
         system.rates.push((Coordinate::Carried(r), r, rate));
     }
     if takes_q {
@@ -119,11 +119,7 @@ fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) ->
 /// `tr(phi^-1 phi') = tr O`.
 fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
     let velocity = chart.momentum.velocity();
-    let mut trace = Polynomial::zero();
-    for a in 1..=chart.dim {
-        trace.add_scaled(&Polynomial::atom(arena.symbol(velocity.at([a, a]))), &Rational::ONE);
-    }
-    trace
+    (1..=chart.dim).map(|a| Polynomial::atom(arena.symbol(velocity.at([a, a])))).sum()
 }
 
 /// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.

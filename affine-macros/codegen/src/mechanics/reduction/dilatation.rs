@@ -10,7 +10,7 @@
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
-use crate::algebra::ring::table;
+use crate::algebra::ring::{pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -145,8 +145,7 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     };
     let nth = Rational::one_over(n);
     let half = Rational::HALF;
-    let mut mean = Polynomial::zero();
-    (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
+    let mean: Polynomial = (0..n).map(|a| force(a, a).scaled(&nth)).sum();
     for (a, b) in pairs(n) {
         let mut rate = match (a < b, a == b) {
             (true, _) => sum(&force(a, b), &force(b, a), &Rational::ONE).scaled(&half),
@@ -210,11 +209,7 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
         rows[a][b] = match (a < b, a == b) {
             (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
             (_, true) if a + 1 < n => symbol(arena, a, a),
-            (_, true) => {
-                let mut rest = Polynomial::zero();
-                (0..a).for_each(|c| rest.add_scaled(&symbol(arena, c, c), &Rational::MINUS_ONE));
-                rest
-            }
+            (_, true) => (0..a).map(|c| symbol(arena, c, c).neg()).sum(),
             _ => sum(&symbol(arena, b, a), &symbol(arena, a, b), &Rational::MINUS_ONE),
         };
     }
@@ -224,10 +219,6 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
 fn part(a: usize, b: usize) -> Symbol {
     if a <= b { Quantity::Shear.at([a + 1, b + 1]) } else { Quantity::Turn.at([b + 1, a + 1]) }
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
 }
 
 fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {

@@ -1,5 +1,6 @@
 //! The frames `L` and `R` beside the lattice: `dL/dt = L chi_hat`, `dR/dt = R theta_hat`.
 
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -45,7 +46,7 @@ impl Frames {
             return sum;
         }
         let (row, column) = (k / self.dim, k % self.dim);
-        let pairs = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
+        let pairs = above_diagonal(self.dim);
         for ((a, b), value) in pairs.zip(angular) {
             // chi_hat_ab = value = -chi_hat_ba
             if column == b {

@@ -1,6 +1,7 @@
 //! The phase space of the lattice: its coordinates, their symbols and their brackets.
 
 use crate::algebra::fault::never_missing;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::term::Frame;
@@ -134,5 +135,5 @@ impl Lattice {
 }
 
 fn pairs(dim: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..dim).flat_map(move |a| (a + 1..dim).map(move |b| (a, b)))
+    above_diagonal(dim)
 }

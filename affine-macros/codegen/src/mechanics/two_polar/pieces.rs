@@ -183,7 +183,7 @@ fn proportional(rate: &Polynomial, moves: &impl Fn(Expr) -> bool) -> Option<(Pol
 
 /// Planes that turn alike, in either sense, share their angular velocity.
 fn add_plane(turns: &mut Vec<Turn>, angular: Polynomial, (z, y): (Expr, Expr)) {
-    let opposite = angular.scaled(&Rational::MINUS_ONE);
+    let opposite = angular.neg();
     for turn in turns.iter_mut() {
         if turn.angular == angular {
             return turn.planes.push((z, y));

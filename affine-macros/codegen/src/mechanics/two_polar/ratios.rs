@@ -68,10 +68,8 @@ impl Ratios {
         }
         let mut rates = Vec::new();
         for (a, ratio) in symbols.neighbours(lattice.dim).into_iter().enumerate() {
-            let mut rate = Polynomial::zero();
-            for (place, sign) in [(a + 1, Rational::ONE), (a, Rational::MINUS_ONE)] {
-                rate.add_product(&Polynomial::atom(ratio), &rate_of(&equations, Coordinate::Q(place)), &sign);
-            }
+            let [next, own] = [a + 1, a].map(|place| rate_of(&equations, Coordinate::Q(place)));
+            let rate = Polynomial::atom(ratio).mul(&next.sub(&own));
             rates.push((ratio, rate));
         }
         for (a, p) in lattice.p.iter().enumerate() {
@@ -153,7 +151,7 @@ impl Symbols {
             // (1 + t) and (1 - t) over one denominator: 1/(1 - t) = (1 + t) r.
             let side = one_and(t, if which % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE });
             let factor = if which < 2 { vec![t, r, r] } else { vec![r] };
-            Some(side.mul(&side).mul(&Polynomial::term(factor, Rational::ONE)))
+            Some(side.mul(&side).mul(&Polynomial::monomial(factor)))
         };
         stable.rewritten(polynomial).substitute(&value)
     }
@@ -177,7 +175,7 @@ fn pair(
             .map(&mut named);
     if let (Some(first), Some(second)) = (symbols.ratio_of(at.0, at.0 + 1), symbols.ratio_of(at.0 + 1, at.1))
     {
-        shared.push((ratio, Polynomial::term(vec![first, second], Rational::ONE)));
+        shared.push((ratio, Polynomial::monomial([first, second])));
     }
     let square_and = |sign: Rational| {
         let mut sum = Polynomial::constant(Rational::ONE);
@@ -187,12 +185,12 @@ fn pair(
     // A symbol is not the number zero.
     let below = arena.reciprocal(gap);
     shared.extend([
-        (square, Polynomial::term(vec![ratio, ratio], Rational::ONE)),
+        (square, Polynomial::monomial([ratio, ratio])),
         (gap, square_and(Rational::MINUS_ONE)),
         (even, square_and(Rational::ONE)),
         (twice, Polynomial::term(vec![ratio], Rational::from(2))),
         (recip, Polynomial::atom(below)),
-        (decay, Polynomial::term(vec![ratio, recip], Rational::ONE)),
+        (decay, Polynomial::monomial([ratio, recip])),
     ]);
     // t^2 = even - 1, t = twice/2.
     let even_less = {
@@ -222,14 +220,14 @@ fn pair(
             // One reciprocal goes with the sum, the rest with t.
             let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
             let factor: Vec<Expr> = with_recip.into_iter().collect();
-            let scale = Polynomial::term(factor, Rational::ONE);
+            let scale = Polynomial::monomial(factor);
             shared.push((side, paired(&primitive).mul(&scale)));
             let mut outer = vec![side];
             match common == sorted([ratio, recip]) {
                 true => outer.push(decay),
                 false => outer.extend(common),
             }
-            shared.push((angular, Polynomial::term(outer, Rational::ONE)));
+            shared.push((angular, Polynomial::monomial(outer)));
             primitive.mul(&scale)
         });
     let (_, body_form) = (
@@ -249,14 +247,15 @@ fn sorted(mut atoms: [Expr; 2]) -> Vec<Expr> {
 fn force(rate: &Polynomial, pairs: &[Pair]) -> Polynomial {
     let mut sum = Polynomial::zero();
     for pair in pairs {
-        let mut part = Polynomial::zero();
-        for (monomial, c) in rate.terms().filter(|(monomial, _)| monomial.contains(&pair.recip)) {
-            part.add_term(monomial.clone(), c);
-        }
+        let part: Polynomial = rate
+            .terms()
+            .filter(|(monomial, _)| monomial.contains(&pair.recip))
+            .map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone()))
+            .sum();
         let divided = quotient(&part, &pair.angular_forms[0]).and_then(|part| quotient(&part, &pair.body.1));
         match divided {
             Some(rest) => {
-                let product = Polynomial::term(vec![pair.angular[0], pair.body.0], Rational::ONE);
+                let product = Polynomial::monomial([pair.angular[0], pair.body.0]);
                 sum.add_product(&rest, &product, &Rational::ONE);
             }
             None => sum.add_scaled(&part, &Rational::ONE),

@@ -119,11 +119,11 @@ fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr
     system.shared.retain(|(symbol, _)| *symbol != det && *symbol != dilatation);
     let mut expanded = Polynomial::zero();
     for a in 0..chart.dim {
-        system.shared.push((psi[0][a], Polynomial::term(vec![r, chart.phi.0[0][a]], Rational::ONE)));
+        system.shared.push((psi[0][a], Polynomial::monomial([r, chart.phi.0[0][a]])));
         expanded.add_product(&Polynomial::atom(psi[0][a]), &adjugate[a][0], &Rational::ONE);
     }
     system.shared.push((square, expanded));
-    system.shared.push((dilatation, Polynomial::term(vec![r, square], Rational::ONE)));
+    system.shared.push((dilatation, Polynomial::monomial([r, square])));
     system
 }
 
@@ -142,19 +142,20 @@ fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System,
     system.shared.retain(|(symbol, _)| !redefined.contains(symbol));
     for i in 0..n {
         for a in 0..n {
-            system.shared.push((psi[i][a], Polynomial::term(vec![r, chart.phi.0[i][a]], Rational::ONE)));
+            system.shared.push((psi[i][a], Polynomial::monomial([r, chart.phi.0[i][a]])));
             system.shared.push((cofactors[i][a], adjugate[a][i].clone()));
             if inverts {
-                let entry = Polynomial::term(vec![r, cofactors[i][a]], Rational::ONE);
+                let entry = Polynomial::monomial([r, cofactors[i][a]]);
                 system.shared.push((inverse[a][i], entry));
             }
         }
     }
     // D = D det Psi, expanded along the first row.
-    let mut expanded = Polynomial::zero();
-    for (entry, cofactor) in chart.phi.0[0].iter().zip(&cofactors[0]) {
-        expanded.add_term(vec![*entry, *cofactor], &Rational::ONE);
-    }
+    let expanded: Polynomial = chart.phi.0[0]
+        .iter()
+        .zip(&cofactors[0])
+        .map(|(entry, cofactor)| Polynomial::monomial([*entry, *cofactor]))
+        .sum();
     system.shared.push((dilatation, expanded));
     system
 }
