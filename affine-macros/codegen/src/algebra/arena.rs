@@ -44,13 +44,11 @@ pub struct Arena {
 
 impl Arena {
     /// An empty arena.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The root node of an expression.
-    #[must_use]
     pub fn node(&self, expr: Expr) -> &Node {
         &self.nodes[expr.0 as usize]
     }
@@ -84,7 +82,6 @@ impl Arena {
     }
 
     /// The number an expression is, if it is one.
-    #[must_use]
     pub fn as_constant(&self, expr: Expr) -> Option<&Rational> {
         match self.node(expr) {
             Node::Constant(value) => Some(value),
@@ -103,7 +100,6 @@ impl Arena {
     }
 
     /// The symbol that an expression is, if it is one.
-    #[must_use]
     pub fn as_symbol(&self, expr: Expr) -> Option<&Symbol> {
         match self.node(expr) {
             Node::Symbol(symbol) => Some(symbol),
@@ -112,19 +108,16 @@ impl Arena {
     }
 
     /// The quantity that an expression is a component of, if it is a symbol of one.
-    #[must_use]
     pub fn quantity(&self, expr: Expr) -> Option<Quantity> {
         self.as_symbol(expr).and_then(Symbol::quantity)
     }
 
     /// Is it a parameter of the model?
-    #[must_use]
     pub fn is_parameter(&self, expr: Expr) -> bool {
         self.as_symbol(expr).is_some_and(Symbol::is_parameter)
     }
 
     /// The symbol that an expression is for sure.
-    #[must_use]
     #[track_caller]
     pub fn symbol_of(&self, expr: Expr) -> Symbol {
         let symbol = self.as_symbol(expr).cloned();
@@ -132,7 +125,6 @@ impl Arena {
     }
 
     /// Name of an expression that is a symbol.
-    #[must_use]
     #[track_caller]
     pub fn symbol_name(&self, symbol: Expr) -> String {
         self.symbol_of(symbol).to_string()
@@ -307,7 +299,6 @@ impl Arena {
     }
 
     /// What stands right below the root of `expr`.
-    #[must_use]
     pub fn parts(&self, expr: Expr) -> Vec<Expr> {
         let mut parts = Vec::new();
         self.any_part(expr, &mut |part| {

@@ -8,7 +8,6 @@ use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
 /// The product of powers of atoms that divides every term, and what is left.
-#[must_use]
 pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
     let mut common: Option<Monomial> = None;
     for (monomial, _) in polynomial.terms() {
@@ -24,7 +23,6 @@ pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
 }
 
 /// `dividend/divisor` where that is a polynomial.
-#[must_use]
 pub fn quotient(dividend: &Polynomial, divisor: &Polynomial) -> Option<Polynomial> {
     let (lead, weight) = leading(divisor)?;
     let (mut rest, mut result) = (dividend.clone(), Polynomial::zero());

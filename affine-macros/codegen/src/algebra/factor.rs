@@ -182,7 +182,6 @@ pub enum First {
 }
 
 /// A number other than one that all terms of a polynomial have, two or more.
-#[must_use]
 pub fn number_of_all(polynomial: &Polynomial) -> Option<Rational> {
     let mut terms = polynomial.terms();
     let number = terms.next()?.1.abs();

@@ -6,6 +6,7 @@ use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Matrix(pub Vec<Vec<Expr>>);
 
 impl Matrix {
@@ -16,13 +17,11 @@ impl Matrix {
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.0.len()
     }
 
     /// Transpose.
-    #[must_use]
     pub fn transpose(&self) -> Self {
         let n = self.dim();
         Self(table(n, |i, j| self.0[j][i]))

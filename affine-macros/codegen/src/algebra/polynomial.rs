@@ -20,6 +20,7 @@ pub type Monomial = Vec<Expr>;
 
 /// A polynomial in atoms with rational coefficients; no zero coefficient is stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[must_use]
 pub struct Polynomial {
     /// In canonical order. A list and no tree, since the macro runs unoptimised in its users' builds, where a tree of few
     /// terms costs several times as much.
@@ -28,25 +29,21 @@ pub struct Polynomial {
 
 impl Polynomial {
     /// The polynomial without terms, 0.
-    #[must_use]
     pub fn zero() -> Self {
         Self::default()
     }
 
     /// The constant polynomial of a number.
-    #[must_use]
     pub fn constant(value: Rational) -> Self {
         Self::term(Vec::new(), value)
     }
 
     /// The polynomial of a single atom.
-    #[must_use]
     pub fn atom(atom: Expr) -> Self {
         Self::term(vec![atom], Rational::ONE)
     }
 
     /// `coefficient * monomial`; the monomial is sorted.
-    #[must_use]
     pub fn term(monomial: Monomial, coefficient: Rational) -> Self {
         let mut result = Self::zero();
         result.add_term(monomial, &coefficient);
@@ -54,7 +51,6 @@ impl Polynomial {
     }
 
     /// The product of some atoms.
-    #[must_use]
     pub fn monomial(atoms: impl Into<Monomial>) -> Self {
         Self::term(atoms.into(), Rational::ONE)
     }
@@ -128,13 +124,11 @@ impl Polynomial {
     }
 
     /// No terms?
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
     /// The number it is, if it is one.
-    #[must_use]
     pub fn as_constant(&self) -> Option<Rational> {
         match self.terms.as_slice() {
             [] => Some(Rational::ZERO),
@@ -233,7 +227,6 @@ impl Polynomial {
     }
 
     /// `self * other`.
-    #[must_use]
     pub fn mul(&self, other: &Self) -> Self {
         let mut result = Self::zero();
         result.add_product(self, other, &Rational::ONE);
@@ -241,7 +234,6 @@ impl Polynomial {
     }
 
     /// `self + other`.
-    #[must_use]
     pub fn add(&self, other: &Self) -> Self {
         let mut result = self.clone();
         result.add_scaled(other, &Rational::ONE);
@@ -249,7 +241,6 @@ impl Polynomial {
     }
 
     /// `self - other`.
-    #[must_use]
     pub fn sub(&self, other: &Self) -> Self {
         let mut result = self.clone();
         result.add_scaled(other, &Rational::MINUS_ONE);
@@ -257,13 +248,11 @@ impl Polynomial {
     }
 
     /// `-self`.
-    #[must_use]
     pub fn neg(&self) -> Self {
         self.scaled(&Rational::MINUS_ONE)
     }
 
     /// `weight * self`.
-    #[must_use]
     pub fn scaled(&self, weight: &Rational) -> Self {
         let mut result = Self::zero();
         result.add_scaled(self, weight);
@@ -271,13 +260,11 @@ impl Polynomial {
     }
 
     /// Derivative with respect to an atom.
-    #[must_use]
     pub fn derivative(&self, atom: Expr) -> Self {
         never_missing(self.gradient(&[atom]).pop(), "one atom has one derivative", Self::zero())
     }
 
     /// Derivatives with respect to several atoms, in one pass.
-    #[must_use]
     pub fn gradient(&self, atoms: &[Expr]) -> Vec<Self> {
         let mut slopes = vec![Self::zero(); atoms.len()];
         for (monomial, c) in &self.terms {
@@ -298,7 +285,6 @@ impl Polynomial {
     }
 
     /// Replaces atoms by polynomials.
-    #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
         let mut result = Self::zero();
         for (monomial, c) in &self.terms {

@@ -83,7 +83,6 @@ pub fn above_diagonal(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone 
 }
 
 /// `a b`.
-#[must_use]
 pub fn product<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| {
         let mut sum = R::zero();
@@ -95,7 +94,6 @@ pub fn product<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
 }
 
 /// `a + b`.
-#[must_use]
 pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| {
         let mut value = a[i][j].clone();
@@ -105,7 +103,6 @@ pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
 }
 
 /// Entries above the diagonal of `m - m^T`.
-#[must_use]
 pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
     let n = m.len();
     (0..n)
@@ -119,7 +116,6 @@ pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
 }
 
 /// `m - (tr m / n) 1`.
-#[must_use]
 pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
     let mut trace = R::zero();
     (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
@@ -134,7 +130,6 @@ pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
 }
 
 /// The transposed cofactors: `m adjugate(m) = det m`.
-#[must_use]
 pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
     let n = m.len();
     table(n, |i, j| {
@@ -155,7 +150,6 @@ pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
 }
 
 /// `a - b`.
-#[must_use]
 pub fn difference<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| {
         let mut value = a[i][j].clone();
@@ -165,13 +159,11 @@ pub fn difference<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
 }
 
 /// The transpose.
-#[must_use]
 pub fn transpose<R: Ring>(a: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| a[j][i].clone())
 }
 
 /// `a v`.
-#[must_use]
 pub fn times<R: Ring>(a: &Square<R>, v: &[R]) -> Vec<R> {
     a.iter()
         .map(|row| {
@@ -183,7 +175,6 @@ pub fn times<R: Ring>(a: &Square<R>, v: &[R]) -> Vec<R> {
 }
 
 /// `a b^T`.
-#[must_use]
 pub fn outer<R: Ring>(a: &[R], b: &[R]) -> Square<R> {
     table(a.len(), |i, j| {
         let mut value = R::zero();

@@ -32,7 +32,6 @@ impl Arena {
     }
 
     /// Is the value `>= 0` for all symbols, those of `positive` being so; and is it never zero?
-    #[must_use]
     pub fn sign(&self, expr: Expr, positive: &dyn Fn(&Symbol) -> bool) -> Option<Sign> {
         match self.node(expr) {
             Node::Constant(value) if value.is_zero() => None,

@@ -4,7 +4,6 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -13,7 +12,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::carried::Carried;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Asked, Capability, Quantity, Symbol};
 
 use super::batch::{batch, split_batch};
 use super::equations::Equations;
@@ -58,9 +57,9 @@ impl Body<'_> {
         let time = self.time(arena);
         let h = self.motion.hamiltonian();
         let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
-            let split = h.filter(|_| asked.splitting);
+            let split = h.filter(|_| asked.has(Capability::Splitting));
             let split = split.and_then(|h| Programs::of(arena, (h, self), reduction, constants));
-            let halves = h.filter(|_| asked.nystrom);
+            let halves = h.filter(|_| asked.has(Capability::Nystrom));
             let second_order = halves.and_then(|h| Halves::of(arena, (h, self), reduction, constants));
             Pieces { splitting: split, second_order }
         };

@@ -5,7 +5,6 @@ use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -17,7 +16,7 @@ use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Aspect, Factorised, Quantity, Symbol};
+use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
 use super::components::Components;
 
@@ -66,19 +65,19 @@ impl Body<'_> {
         asked: Asked,
         coefficients: &mut Constants,
     ) -> Option<Quantities> {
-        let metric = match asked.metric {
+        let metric = match asked.has(Capability::Metric) {
             true => Some(metric(arena, self.motion, coefficients)?),
             false => None,
         };
         let time = self.time(arena);
-        let acceleration = match asked.acceleration {
+        let acceleration = match asked.has(Capability::Acceleration) {
             true => {
                 let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
                 Some(acceleration(arena, chart, &system, time, coefficients))
             }
             false => None,
         };
-        let balance = match asked.balance {
+        let balance = match asked.has(Capability::Balance) {
             true => {
                 let (kinetics, _) = self.motion.kinetics(arena, chart).into_iter().next()?;
                 let (mut added, count) =

@@ -77,7 +77,6 @@ pub enum FlowProgram {
 
 impl FlowProgram {
     /// What it computes.
-    #[must_use]
     pub fn program(&self) -> &Program {
         match self {
             Self::Shift { program, .. }

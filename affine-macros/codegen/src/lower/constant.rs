@@ -9,7 +9,6 @@ pub const LARGEST_POWER: u64 = 16;
 
 /// The exact value of an expression in dimension `n`; `None` where it depends on a field or on the
 /// state, or has none.
-#[must_use]
 pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
     let value = |operand: &Expression| constant(operand, n);
     match &expression.kind {
@@ -38,7 +37,6 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
 }
 
 /// The value of an exponent: an integer of moderate size.
-#[must_use]
 pub fn integer(exponent: &Expression, n: usize) -> Option<i32> {
     let value = constant(exponent, n)?.to_i64()?;
     (value.unsigned_abs() <= LARGEST_POWER).then(|| i32::try_from(value).ok()).flatten()

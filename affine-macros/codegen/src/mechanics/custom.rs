@@ -204,7 +204,6 @@ impl Custom {
     }
 
     /// The gravity of a homogeneous ellipsoid on itself.
-    #[must_use]
     pub fn self_gravity(place: usize, strength: Expr) -> Self {
         let role = Role::Potential { class: Class::Isotropic, moves: false };
         Self { place, name: "self_gravity".to_owned(), role, by: By::SelfGravity(strength) }
@@ -296,25 +295,21 @@ impl Custom {
     }
 
     /// Does the centre of mass move as without it, and need not be known to it?
-    #[must_use]
     pub fn leaves_the_centre(&self) -> bool {
         matches!(self.role, Role::Potential { moves: false, .. })
     }
 
     /// Can it push a centre of mass that is at rest?
-    #[must_use]
     pub fn pushes_from_rest(&self) -> bool {
         matches!(self.role, Role::Force { on: On::Centre, .. } | Role::Potential { moves: true, .. })
     }
 
     /// Does it look the same from every direction of space?
-    #[must_use]
     pub fn is_isotropic_in_space(&self) -> bool {
         matches!(self.role, Role::Potential { class, moves: false } if class.keeps_spin())
     }
 
     /// A potential that the squared vorticity (body) or spin (space) of `H` commutes with?
-    #[must_use]
     pub fn commutes_with_rotation(&self, frame: Frame) -> bool {
         match (self.role, frame) {
             (Role::Potential { class, .. }, Frame::Body) => class.keeps_vorticity(),

@@ -91,13 +91,11 @@ impl Dissipation {
     }
 
     /// What is left of it while the centre of mass is at rest.
-    #[must_use]
     pub fn at_rest(&self) -> Option<Self> {
         (!self.parts.is_empty()).then(|| Self { centre: Vec::new(), ..self.clone() })
     }
 
     /// Does it slow the centre of mass?
-    #[must_use]
     pub fn slows_the_centre(&self) -> bool {
         !self.centre.is_empty()
     }

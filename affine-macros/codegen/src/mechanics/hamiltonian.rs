@@ -14,6 +14,7 @@ use super::weight::Weight;
 
 /// The kinetic Hamiltonian in pieces.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Hamiltonian {
     /// Dimension of space.
     pub dim: usize,
@@ -37,6 +38,7 @@ pub struct Hamiltonian {
 
 /// Coefficients of an isotropic Hamiltonian, (4.24).
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Isotropic {
     /// `1/alpha`, of `C(2)/2`.
     pub casimir2: Polynomial,
@@ -91,7 +93,6 @@ impl Hamiltonian {
     }
 
     /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
-    #[must_use]
     pub fn internal(&self) -> Polynomial {
         if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
             let spin = self.momentum.0.iter();
@@ -111,7 +112,6 @@ impl Hamiltonian {
 
     /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
-    #[must_use]
     pub fn is_tensor(&self) -> bool {
         // The few momenta of a rigid or conformal motion make short equations whatever their coefficients.
         let small = matches!(self.constraint, Some(Constraint::Rigid | Constraint::Conformal));
@@ -119,13 +119,11 @@ impl Hamiltonian {
     }
 
     /// What defines the weight of the internal energy, if it has one.
-    #[must_use]
     pub fn weight_definitions(&self) -> Definitions {
         self.weight.as_ref().map_or_else(Definitions::new, |weight| weight.definitions.clone())
     }
 
     /// How the velocity of the centre of mass follows.
-    #[must_use]
     pub fn centre_velocity(&self) -> CentreVelocity {
         match &self.translation {
             None => CentreVelocity::Fixed,
@@ -136,7 +134,6 @@ impl Hamiltonian {
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
     /// where it is not a polynomial there, and for `I(O)` where that is not conserved: `Sigma = I(O) - x p^T` only
     /// makes it longer.
-    #[must_use]
     pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
         match &self.isotropic {
             Some(iso) if without_skew || iso.skew.is_zero() => {
@@ -148,7 +145,6 @@ impl Hamiltonian {
     }
 
     /// `H` in a chart of the model's own frame.
-    #[must_use]
     pub fn energy_in(&self, chart: &Chart) -> Polynomial {
         let mut sum = self.internal();
         sum.add_scaled(&self.translation_in(chart), &Rational::ONE);
@@ -156,7 +152,6 @@ impl Hamiltonian {
     }
 
     /// The affine momenta in which it is a polynomial, each for one frame.
-    #[must_use]
     pub fn momenta(&self) -> Vec<Momentum> {
         match self.isotropic {
             Some(_) => vec![Momentum::of(self.frame), Momentum::Body, Momentum::Space],
@@ -165,7 +160,6 @@ impl Hamiltonian {
     }
 
     /// The translational energy in a chart.
-    #[must_use]
     pub fn translation_in(&self, chart: &Chart) -> Polynomial {
         let Some((frame, inverse_mass)) = &self.translation else { return Polynomial::zero() };
         let squares = match (frame, chart.linear) {
@@ -178,14 +172,12 @@ impl Hamiltonian {
 
 impl Isotropic {
     /// `H = 0`.
-    #[must_use]
     pub fn zero() -> Self {
         let [casimir2, casimir1_squared, skew, casimir3] = std::array::from_fn(|_| Polynomial::zero());
         Self { casimir2, casimir1_squared, skew, casimir3 }
     }
 
     /// `H` of an affine spin.
-    #[must_use]
     pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
         let mut sum = self.casimirs(spin);
         sum.add_scaled(&self.skew_norm(spin), &Rational::ONE);
@@ -193,7 +185,6 @@ impl Isotropic {
     }
 
     /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
-    #[must_use]
     pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
         let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
         for (a, row) in spin.iter().enumerate() {
@@ -213,7 +204,6 @@ impl Isotropic {
     }
 
     /// `|W|^2/(2 mu)` of an affine spin.
-    #[must_use]
     pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
         let mut norm = Polynomial::zero();
         for a in 0..spin.len() {
@@ -244,7 +234,6 @@ fn comoving(chart: &Chart) -> Vec<Polynomial> {
 }
 
 /// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.
-#[must_use]
 pub fn spatial_or_own(chart: &Chart) -> Vec<Vec<Polynomial>> {
     let orbital = chart.momentum == Momentum::Total;
     (0..chart.dim)

@@ -38,20 +38,17 @@ pub struct Block {
 
 impl Block {
     /// The eigenvalue of a block of size one, with respect to the norm `tr(O O^T)`.
-    #[must_use]
     pub fn eigenvalue(&self) -> Option<Polynomial> {
         let [square] = self.squares.as_slice() else { return None };
         Some(self.form[0][0].scaled(&square.recip()?))
     }
 
     /// The form as numbers, if it is numeric.
-    #[must_use]
     pub fn numbers(&self) -> Option<linear::Square> {
         self.form.iter().map(|row| row.iter().map(Polynomial::as_constant).collect()).collect()
     }
 
     /// Inertia of a numeric block, its kernel as an affine velocity of `n^2` entries.
-    #[must_use]
     pub fn inertia(&self, dim: usize) -> Option<Inertia> {
         let mut inertia = linear::inertia(&self.numbers()?);
         inertia.kernel = inertia.kernel.map(|kernel| self.velocity(dim, &kernel));
@@ -59,7 +56,6 @@ impl Block {
     }
 
     /// The affine velocity of `n^2` entries with these components in the basis.
-    #[must_use]
     pub fn velocity(&self, dim: usize, components: &[Rational]) -> Vec<Rational> {
         let mut direction = vec![Rational::ZERO; dim * dim];
         for (weight, velocity) in components.iter().zip(&self.velocities) {
@@ -90,7 +86,6 @@ impl Block {
     }
 
     /// The value of the form at these components, if it is numeric.
-    #[must_use]
     pub fn square(&self, components: &[Rational]) -> Option<Rational> {
         let mut sum = Rational::ZERO;
         for (row, left) in self.numbers()?.iter().zip(components) {
@@ -104,7 +99,6 @@ impl Block {
 
 impl Hessian {
     /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
-    #[must_use]
     pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
         let mut list: Vec<(Direction, Polynomial)> = Vec::new();
         for block in &self.blocks {
@@ -119,13 +113,11 @@ impl Hessian {
     }
 
     /// Is the energy zero for all velocities that are free?
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero())
     }
 
     /// The Hessian of the internal energy.
-    #[must_use]
     pub fn new(kinetic: &Kinetic) -> Self {
         let matrix = kinetic.form();
         let bases = match kinetic.confined() {

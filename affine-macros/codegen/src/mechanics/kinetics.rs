@@ -23,6 +23,7 @@ pub use lagrangian::{Lagrangian, Part, named};
 
 /// An energy in a chart, as far as its motion depends on it.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Kinetics {
     /// The chart.
     pub chart: Chart,
@@ -53,13 +54,11 @@ impl Kinetics {
     }
 
     /// The same energy in a chart that has a spatial `p` besides.
-    #[must_use]
     pub fn beside(&self, chart: &Chart) -> Self {
         Self { chart: chart.clone(), ..self.clone() }
     }
 
     /// The affine velocity in a form.
-    #[must_use]
     pub fn affine_velocity(&self, form: Form) -> Square<Polynomial> {
         let written = |a: usize, b: usize| match form {
             Form::ThroughVelocity => Polynomial::atom(self.velocity.0[a][b]),
@@ -72,7 +71,6 @@ impl Kinetics {
     }
 
     /// `dz/dt`.
-    #[must_use]
     pub fn rate(&self, form: Form, z: Coordinate) -> Polynomial {
         let slope = |(y, slope): &(Coordinate, Polynomial)| match (form, *y) {
             (Form::ThroughVelocity, Coordinate::M(a, b)) => (*y, Polynomial::atom(self.velocity.0[b][a])),
@@ -88,7 +86,6 @@ impl Kinetics {
     }
 
     /// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
-    #[must_use]
     pub fn system(&self, momenta: Form) -> System {
         let rate = |z: Coordinate| {
             let form = match z {
@@ -108,7 +105,6 @@ impl Kinetics {
     }
 
     /// What it adds to the equations of another energy in the same chart, before any projection.
-    #[must_use]
     pub fn load(&self) -> Load {
         let rate = |z: Coordinate| (z, self.rate(Form::ThroughVelocity, z));
         let forces = self.chart.coordinates().into_iter().map(rate).filter(|(_, rate)| !rate.is_zero());

@@ -44,7 +44,6 @@ pub struct Factor {
 
 impl Bases {
     /// The change of bases; `None` where both metrics are the identity, or one is not positive definite.
-    #[must_use]
     pub fn new(space: &[Vec<Rational>], body: &[Vec<Rational>]) -> Option<Self> {
         if is_identity(space) && is_identity(body) {
             return None;

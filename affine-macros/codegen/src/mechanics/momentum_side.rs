@@ -26,7 +26,6 @@ pub struct Stated {
 
 impl Stated {
     /// The sum of the internal terms.
-    #[must_use]
     pub fn invariants(&self) -> Isotropic {
         let mut sum = Isotropic::zero();
         for (_, part) in &self.parts {
@@ -39,13 +38,11 @@ impl Stated {
     }
 
     /// Is there a cubic term? Then the velocity is quadratic in the momentum and does not determine it.
-    #[must_use]
     pub fn is_cubic(&self) -> bool {
         !self.invariants().casimir3.is_zero()
     }
 
     /// The eigenvalues on the momenta that the constraint leaves.
-    #[must_use]
     pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
         let mut list = self.unconfined_eigenvalues().to_vec();
         list.retain(|(direction, _)| self.leaves_free(*direction));
@@ -75,7 +72,6 @@ impl Stated {
     /// The form on momenta in place of velocities: `phi -> A phi B` changes `Sigma_hat` as `Oh` and `Sigma` as `Om`, so
     /// that what is invariant of the one is of the other. Of all momenta, those that a constraint takes away too: the
     /// groups are those of the Hamiltonian as stated.
-    #[must_use]
     pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
         let spin = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let rows = atoms(&spin);
@@ -93,7 +89,6 @@ impl Stated {
     }
 
     /// The places of the terms that are zero on all momenta that the constraint leaves, `X = P X`.
-    #[must_use]
     pub fn vanishing(&self, arena: &mut Arena) -> Vec<usize> {
         let on_momenta = Kinetic { constraint: self.constraint, ..self.on_momenta(arena) };
         let parts = on_momenta.internal.iter();

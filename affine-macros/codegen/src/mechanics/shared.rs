@@ -66,7 +66,7 @@ impl Shared<'_> {
         let cofactors = adjugate(phi);
         let determinant: Polynomial =
             phi[0].iter().zip(&cofactors).map(|(entry, row)| entry.mul(&row[0])).sum();
-        self.named(Quantity::Determinant, &determinant);
+        let _ = self.named(Quantity::Determinant, &determinant);
         let det = self.arena.symbol(Quantity::Determinant);
         // A symbol is not the number zero.
         let reciprocal = Polynomial::atom(self.arena.reciprocal(det));

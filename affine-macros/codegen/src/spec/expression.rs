@@ -70,13 +70,11 @@ pub struct PolynomialTrace {
 
 impl PolynomialTrace {
     /// Its matrices, as often as they stand there.
-    #[must_use]
     pub fn matrices(&self) -> Vec<MatrixName> {
         matrices(&self.written)
     }
 
     /// The number of its factors, and of what its [powers](more_factors) are worth beyond their bases.
-    #[must_use]
     pub fn factors(&self) -> usize {
         factors(&self.written)
     }
@@ -84,7 +82,6 @@ impl PolynomialTrace {
 
 /// What a power of a matrix is worth in factors beyond those of its base: one factor for each further one where these are few,
 /// two for each squaring otherwise, since the slope is a power as well.
-#[must_use]
 pub fn more_factors(exponent: usize) -> usize {
     let beyond = exponent.saturating_sub(1);
     let squarings = (usize::BITS - beyond.leading_zeros()) as usize;
@@ -149,7 +146,6 @@ pub enum Operator {
 
 impl Operator {
     /// Applies the operator; the place spans both operands.
-    #[must_use]
     pub fn apply(self, left: Expression, right: Expression) -> Expression {
         let span = left.span.to(right.span);
         let (left, right) = (Box::new(left), Box::new(right));
@@ -176,7 +172,6 @@ enum Binding {
 
 impl Expression {
     /// The operands of the outermost form.
-    #[must_use]
     pub fn operands(&self) -> Vec<&Expression> {
         match &self.kind {
             ExpressionKind::Number(_)

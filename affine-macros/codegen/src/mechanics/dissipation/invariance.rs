@@ -13,7 +13,6 @@ use super::Dissipation;
 
 impl Dissipation {
     /// Does no rotation of space change `R`?
-    #[must_use]
     pub fn is_isotropic_in_space(&self) -> bool {
         self.parts.iter().all(|part| broken_by(&part.form, Side::Space, Group::Metric).is_none())
     }
@@ -21,7 +20,6 @@ impl Dissipation {
     /// May the piece `|W|^2/(2 mu)` of `H`, `W` the vorticity or the spin, be applied apart from the rest? So it is
     /// where the forces leave `W` at rest, do not see the part `-W/mu` of the velocity, and the flow of the piece
     /// leaves them as they are: its Lie bracket with them vanishes.
-    #[must_use]
     pub fn commutes_with_rotation(&self, chart: &Chart, h: &Hamiltonian, iso: &Isotropic) -> bool {
         let own = frame_of(chart);
         let centre =

@@ -110,7 +110,6 @@ impl Lagrangian {
 
     /// The Legendre transformation: what the parts share, `dT/dO` in the order of the momenta, and `T`; with names for `s` or
     /// without.
-    #[must_use]
     pub fn legendre(&self, by_names: bool) -> (Definitions, Vec<Polynomial>, Polynomial) {
         let mut shared = Definitions::new();
         let mut momentum = vec![Polynomial::zero(); self.conjugate.len()];

@@ -29,7 +29,6 @@ pub struct Masses {
 
 impl Masses {
     /// The masses of some energies.
-    #[must_use]
     pub fn of(parts: &[Kinetic]) -> Self {
         let mass = |frame: Frame| {
             let translation = |part: &Kinetic| part.translation.filter(|t| t.frame == frame);
@@ -40,32 +39,27 @@ impl Masses {
     }
 
     /// Both frames have a mass: the matrix depends on the placement.
-    #[must_use]
     pub fn are_mixed(&self) -> bool {
         self.body.is_some() && self.space.is_some()
     }
 
     /// There is no translation.
-    #[must_use]
     pub fn are_none(&self) -> bool {
         self.body.is_none() && self.space.is_none()
     }
 
     /// The masses, that of the body first.
-    #[must_use]
     pub fn list(&self) -> Vec<Expr> {
         self.body.into_iter().chain(self.space).collect()
     }
 
     /// The frame of the energy, of `x_dot` where there are two.
-    #[must_use]
     pub fn frame(&self) -> Option<Frame> {
         let body = self.body.map(|_| Frame::Body);
         self.space.map(|_| Frame::Space).or(body)
     }
 
     /// The mass, where there is one.
-    #[must_use]
     pub fn single(&self) -> Option<Expr> {
         self.body.xor(self.space)
     }

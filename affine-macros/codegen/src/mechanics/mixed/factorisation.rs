@@ -46,7 +46,6 @@ pub struct SymmetricBlock {
 
 impl SymmetricBlock {
     /// Its diagonal.
-    #[must_use]
     pub fn diagonal(&self) -> Vec<&Polynomial> {
         let mut at = 0;
         (0..self.size)
@@ -87,7 +86,6 @@ impl Factorisation {
     }
 
     /// The blocks, each once.
-    #[must_use]
     pub fn blocks(&self) -> Vec<(SymmetricBlock, usize)> {
         let mut list: Vec<(SymmetricBlock, usize)> = Vec::new();
         for block in &self.blocks {

@@ -21,7 +21,6 @@ pub struct ForceNames {
 
 impl ForceNames {
     /// Those of a chart.
-    #[must_use]
     pub fn of(chart: &Chart, forces: &Forces) -> Self {
         let mut names = Self::default();
         forces.name_on(chart, &mut names.on_linear, &mut names.on_affine);
@@ -92,7 +91,6 @@ pub fn internal_energy(arena: &mut Arena, confined: bool) -> Sentence {
 }
 
 /// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
-#[must_use]
 pub fn internal_equations(
     arena: &mut Arena,
     notation: &Notation,
@@ -123,7 +121,6 @@ pub fn internal_equations(
 }
 
 /// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has.
-#[must_use]
 pub fn confined_equations(
     arena: &mut Arena,
     notation: &Notation,
@@ -185,7 +182,6 @@ fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> O
 }
 
 /// The velocity of the centre of mass and the balance of `p`.
-#[must_use]
 pub fn centre_equations(
     arena: &mut Arena,
     notation: &Notation,

@@ -65,13 +65,11 @@ impl Internal {
     }
 
     /// The group that the motion is confined to.
-    #[must_use]
     pub fn group(&self) -> Option<Constraint> {
         self.lagrangian.chart.confined
     }
 
     /// The frame of velocity and momentum.
-    #[must_use]
     pub fn frame(&self) -> Frame {
         frame_of(&self.lagrangian.chart)
     }

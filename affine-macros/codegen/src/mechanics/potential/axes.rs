@@ -26,20 +26,17 @@ pub struct OnAxes {
 
 impl Potential {
     /// The first rotation that changes the potential: its side and plane, axes from 1.
-    #[must_use]
     pub fn anisotropy(&self) -> Option<(Side, (usize, usize))> {
         let turned = |side| self.invariance.changed_by(side).map(|(a, b)| (side, (a + 1, b + 1)));
         turned(Side::Space).or_else(|| turned(Side::Body))
     }
 
     /// Does it depend on `q = ln(det phi)/n` alone?
-    #[must_use]
     pub fn is_dilatational(&self) -> bool {
         self.slopes.iter().all(|(base, _)| *base == Base::MeanLogStretch)
     }
 
     /// Does it depend on `q_1, .., q_n` alone?
-    #[must_use]
     pub fn is_of_places(&self) -> bool {
         let is_place = |base: &Base| matches!(base, Base::LogStretch(_) | Base::MeanLogStretch);
         self.slopes.iter().all(|(base, _)| is_place(base)) && !self.depends_on_time()

@@ -26,7 +26,6 @@ pub fn canonical(arena: &mut Arena, n: usize, energy: Expr) -> Expr {
 }
 
 /// Does it need the single stretches?
-#[must_use]
 pub fn is_stretched(arena: &mut Arena, n: usize, energy: Expr) -> bool {
     let stretches = log_stretches(arena, n);
     arena.any_symbol(energy, &mut |symbol| stretches.contains(&symbol))

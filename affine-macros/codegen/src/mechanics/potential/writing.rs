@@ -68,7 +68,6 @@ pub(super) struct Counting {
 
 impl Writing {
     /// Does it count from the undeformed state?
-    #[must_use]
     pub fn counts(self) -> bool {
         matches!(self, Self::Differences | Self::Deviators | Self::Inverses)
     }
@@ -127,7 +126,6 @@ impl Potential {
     }
 
     /// The same potential with a way of writing its forces beside a momentum.
-    #[must_use]
     pub fn written(mut self, momentum: Momentum, way: Way) -> Self {
         self.writings.push((momentum, way));
         self

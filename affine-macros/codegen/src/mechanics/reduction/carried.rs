@@ -25,7 +25,6 @@ pub enum Carried {
 
 impl Carried {
     /// The quantity that its symbol stands for.
-    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Self::InverseDilatation => Quantity::InverseDilatation,

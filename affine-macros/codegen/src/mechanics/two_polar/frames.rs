@@ -31,14 +31,12 @@ impl Frames {
     }
 
     /// All of them, `L` first.
-    #[must_use]
     pub fn symbols(&self) -> Vec<Expr> {
         [&self.left[..], &self.right].concat()
     }
 
     /// Rate of component `k` of a frame from `chi_hat_ab` or `theta_hat_ab`, `a < b`: entry `k` of `L chi_hat`, or of the
     /// angle `w`, where `L^T dL/dt = [[0, -1], [1, 0]] dw/dt`.
-    #[must_use]
     pub fn rate(&self, frame: &[Expr], angular: &[Polynomial], k: usize) -> Polynomial {
         let mut sum = Polynomial::zero();
         if self.dim == 2 {

@@ -71,7 +71,6 @@ impl Lattice {
     }
 
     /// All coordinates, group after group.
-    #[must_use]
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let mut all: Vec<Coordinate> = (0..self.dim).map(Coordinate::Q).collect();
         all.extend((0..self.dim).map(Coordinate::P));
@@ -81,7 +80,6 @@ impl Lattice {
     }
 
     /// Symbol of a coordinate.
-    #[must_use]
     pub fn symbol(&self, coordinate: Coordinate) -> Expr {
         let place = |a: usize, b: usize| {
             never_missing(self.pairs().position(|pair| pair == (a, b)), "the axes of a pair come in order", 0)
@@ -107,7 +105,6 @@ impl Lattice {
 
     /// `{z, y}`: `{q_a, p_b} = d_ab`; `{M, M} = {N, N} = -f(M)`, `{M, N} = -f(N)` with
     /// `f(X)_ab,cd = X_ad d_cb - X_cb d_ad + X_db d_ac - X_ac d_db`; all others vanish.
-    #[must_use]
     pub fn bracket(&self, z: Coordinate, y: Coordinate) -> Polynomial {
         use Coordinate::{M, N, P, Q};
         match (z, y) {

@@ -127,7 +127,6 @@ impl Stable {
     }
 
     /// The polynomial with every function of a pair replaced.
-    #[must_use]
     pub fn rewritten(&self, polynomial: &Polynomial) -> Polynomial {
         let mut result = Polynomial::zero();
         for (monomial, c) in polynomial.terms() {
