@@ -13,7 +13,7 @@ use crate::lower;
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
-use crate::spec::{Expression, ExpressionKind, Spec};
+use crate::spec::{Expression, ExpressionKind, Operator, Spec};
 use crate::symbol::Quantity;
 
 /// Every rule; a potential that breaks one of symmetry is not asked for more.
@@ -154,12 +154,12 @@ fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Opti
         }
         ExpressionKind::Call(Function::Abs, _) => return list,
         ExpressionKind::Call(Function::Sqrt | Function::Ln, argument)
-        | ExpressionKind::Divide(_, argument)
-        | ExpressionKind::Power(argument, _) => argument,
+        | ExpressionKind::Binary(Operator::Divide, _, argument)
+        | ExpressionKind::Binary(Operator::Power, argument, _) => argument,
         _ => return list,
     };
     let singular_power = match &part.kind {
-        ExpressionKind::Power(_, exponent) => {
+        ExpressionKind::Binary(Operator::Power, _, exponent) => {
             crate::lower::constant(exponent, n).is_some_and(|k| k.is_negative())
         }
         _ => true,

@@ -136,8 +136,7 @@ fn inverse(
     let mut defined = Definitions::new();
     let of_centre = match motion.masses.single() {
         Some(mass) => {
-            let inverse_mass = arena.pow(mass, -1)?;
-            let inverse_mass = Polynomial::normal_form(arena, inverse_mass);
+            let inverse_mass = Polynomial::reciprocal(arena, mass)?;
             of_one_mass(&chart, motion.masses.frame(), &inverse_mass)
         }
         None if centre.is_empty() => Vec::new(),
@@ -169,20 +168,20 @@ fn inverse(
 fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
     let (n, phi) = (h.dim, &chart.phi.0);
     let pairs = || pairs(n);
-    let slope = |i: usize, a: usize, b: usize, j: usize| {
-        let mut sum = Polynomial::zero();
+    let slope = |i: usize, a: usize, b: usize, j: usize| -> Polynomial {
         match h.frame {
-            Frame::Flat => sum = h.velocity[i][a].derivative(h.momentum.0[b][j]),
-            Frame::Body => pairs().for_each(|(c, e)| {
-                let inner = h.velocity[c][a].derivative(h.momentum.0[b][e]);
-                sum.add_product(&inner, &pair(phi[i][c], phi[j][e]), &Rational::ONE);
-            }),
-            Frame::Space => pairs().for_each(|(k, l)| {
-                let inner = h.velocity[i][k].derivative(h.momentum.0[l][j]);
-                sum.add_product(&inner, &pair(phi[k][a], phi[l][b]), &Rational::ONE);
-            }),
+            Frame::Flat => h.velocity[i][a].derivative(h.momentum.0[b][j]),
+            Frame::Body => pairs()
+                .map(|(c, e)| {
+                    h.velocity[c][a].derivative(h.momentum.0[b][e]).mul(&pair(phi[i][c], phi[j][e]))
+                })
+                .sum(),
+            Frame::Space => pairs()
+                .map(|(k, l)| {
+                    h.velocity[i][k].derivative(h.momentum.0[l][j]).mul(&pair(phi[k][a], phi[l][b]))
+                })
+                .sum(),
         }
-        sum
     };
     pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect()
 }
@@ -191,15 +190,10 @@ fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
 fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -> Square<Polynomial> {
     let phi = &chart.phi.0;
     table(chart.dim, |i, j| {
-        let mut form = Polynomial::zero();
-        match frame {
-            Some(Frame::Body) => {
-                let squares = phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right));
-                squares.for_each(|square| form.add_scaled(&square, &Rational::ONE));
-            }
-            _ if i == j => form = Polynomial::constant(Rational::ONE),
-            _ => {}
-        }
+        let form: Polynomial = match frame {
+            Some(Frame::Body) => phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right)).sum(),
+            _ => Polynomial::constant(Rational::from(i64::from(i == j))),
+        };
         form.mul(inverse_mass)
     })
 }

@@ -6,7 +6,7 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, pairs, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -41,12 +41,7 @@ impl Part {
     /// `-(dR/dO)^T` at a velocity `o` of its frame, in the ring of the velocity.
     fn force(&self, o: &Square<Polynomial>) -> Square<Polynomial> {
         let flat = o.concat();
-        table(o.len(), |a, b| {
-            let mut force = Polynomial::zero();
-            let row = &self.hessian.matrix[b * o.len() + a];
-            row.iter().zip(&flat).for_each(|(h, o)| force.add_product(h, o, &Rational::MINUS_ONE));
-            force
-        })
+        table(o.len(), |a, b| dot(self.hessian.matrix[b * o.len() + a].iter().zip(&flat)).neg())
     }
 }
 
@@ -142,9 +137,7 @@ impl Dissipation {
             };
             let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
             let drag = shared.matrix(drag(frame), &part.force(&velocity));
-            for (a, b) in pairs(n) {
-                power.add_product(&drag[a][b], &velocity[b][a], &Rational::ONE);
-            }
+            power = power.add(&dot(pairs(n).map(|(a, b)| (&drag[a][b], &velocity[b][a]))));
             match frame {
                 _ if at_home => force = sum(&force, &drag),
                 Frame::Body => push = sum(&push, &product(&drag, &shared.inverse(&phi))),
@@ -209,9 +202,7 @@ impl Dissipation {
             }
         }
         let force = shared.vector(Quantity::CentreDrag, &force);
-        for (force, velocity) in force.iter().zip(&velocity) {
-            power.add_product(force, velocity, &Rational::ONE);
-        }
+        *power = power.add(&dot(force.iter().zip(&velocity)));
         force
     }
 
@@ -241,9 +232,7 @@ impl Dissipation {
             }
         }
         let force = shared.vector(Quantity::CentreDrag, &force);
-        for (force, velocity) in force.iter().zip(x_dot) {
-            power.add_product(force, velocity, &Rational::ONE);
-        }
+        *power = power.add(&dot(force.iter().zip(x_dot)));
         force
     }
 }

@@ -1,5 +1,6 @@
 //! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
 
+use crate::algebra::ring::{above_diagonal, dot, pairs, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -8,7 +9,7 @@ use super::direction::Direction;
 use super::hessian::{Hessian, NumericBlock};
 use super::kinetic::Kinetic;
 use super::metric::Definitions;
-use super::shared::CentreVelocity;
+use super::shared::{CentreVelocity, atoms};
 use super::term::Frame;
 use super::weight::Weight;
 
@@ -68,10 +69,7 @@ impl Hamiltonian {
         }
         let translation = match kinetic.translation {
             None => None,
-            Some(t) => {
-                let reciprocal = arena.pow(t.mass, -1)?;
-                Some((t.frame, Polynomial::normal_form(arena, reciprocal)))
-            }
+            Some(t) => Some((t.frame, Polynomial::reciprocal(arena, t.mass)?)),
         };
         Some(Self {
             dim: n,
@@ -95,19 +93,11 @@ impl Hamiltonian {
     /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
     pub fn internal(&self) -> Polynomial {
         if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
-            let spin = self.momentum.0.iter();
-            let spin: Vec<Vec<Polynomial>> =
-                spin.map(|row| row.iter().map(|x| Polynomial::atom(*x)).collect()).collect();
-            return iso.energy(&spin);
+            return iso.energy(&atoms(&self.momentum));
         }
-        let mut sum = Polynomial::zero();
-        for (a, row) in self.velocity.iter().enumerate() {
-            for (b, o) in row.iter().enumerate() {
-                let x = Polynomial::atom(self.momentum.0[b][a]);
-                sum.add_product(&x, o, &Rational::HALF);
-            }
-        }
-        sum
+        let product =
+            |(a, b): (usize, usize)| Polynomial::atom(self.momentum.0[b][a]).mul(&self.velocity[a][b]);
+        pairs(self.dim).map(product).sum::<Polynomial>().scaled(&Rational::HALF)
     }
 
     /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
@@ -146,9 +136,7 @@ impl Hamiltonian {
 
     /// `H` in a chart of the model's own frame.
     pub fn energy_in(&self, chart: &Chart) -> Polynomial {
-        let mut sum = self.internal();
-        sum.add_scaled(&self.translation_in(chart), &Rational::ONE);
-        sum
+        self.internal().add(&self.translation_in(chart))
     }
 
     /// The affine momenta in which it is a polynomial, each for one frame.
@@ -179,41 +167,25 @@ impl Isotropic {
 
     /// `H` of an affine spin.
     pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let mut sum = self.casimirs(spin);
-        sum.add_scaled(&self.skew_norm(spin), &Rational::ONE);
-        sum
+        self.casimirs(spin).add(&self.skew_norm(spin))
     }
 
     /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
     pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
-        for (a, row) in spin.iter().enumerate() {
-            c1.add_scaled(&row[a], &Rational::ONE);
-            for (b, value) in row.iter().enumerate() {
-                c2.add_product(value, &spin[b][a], &Rational::ONE);
-            }
-        }
-        let mut sum = Polynomial::zero();
-        sum.add_product(&c2, &self.casimir2, &Rational::HALF);
-        sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &Rational::HALF);
+        let c1: Polynomial = spin.iter().enumerate().map(|(a, row)| &row[a]).sum();
+        let c2 = dot(pairs(spin.len()).map(|(a, b)| (&spin[a][b], &spin[b][a])));
+        let mut sum = c2.mul(&self.casimir2).add(&c1.mul(&c1).mul(&self.casimir1_squared));
+        sum = sum.scaled(&Rational::HALF);
         if !self.casimir3.is_zero() {
-            let third = Rational::THIRD;
-            sum.add_product(&cubed_trace(spin), &self.casimir3, &third);
+            sum.add_product(&cubed_trace(spin), &self.casimir3, &Rational::THIRD);
         }
         sum
     }
 
     /// `|W|^2/(2 mu)` of an affine spin.
     pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let mut norm = Polynomial::zero();
-        for a in 0..spin.len() {
-            for b in a + 1..spin.len() {
-                let mut w = spin[a][b].clone();
-                w.add_scaled(&spin[b][a], &Rational::MINUS_ONE);
-                norm.add_product(&w, &w, &Rational::HALF);
-            }
-        }
-        norm.mul(&self.skew)
+        let squares = above_diagonal(spin.len()).map(|(a, b)| spin[a][b].sub(&spin[b][a])).map(|w| w.mul(&w));
+        squares.sum::<Polynomial>().mul(&self.skew).scaled(&Rational::HALF)
     }
 }
 
@@ -228,27 +200,17 @@ fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
 
 /// `p_hat = phi^T p`.
 fn comoving(chart: &Chart) -> Vec<Polynomial> {
-    (0..chart.dim)
-        .map(|a| chart.p.iter().enumerate().map(|(i, p)| Polynomial::monomial([chart.phi.0[i][a], *p])).sum())
-        .collect()
+    let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
+    times(&transpose(&chart.placement()), &p)
 }
 
 /// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.
 pub fn spatial_or_own(chart: &Chart) -> Vec<Vec<Polynomial>> {
     let orbital = chart.momentum == Momentum::Total;
-    (0..chart.dim)
-        .map(|i| {
-            (0..chart.dim)
-                .map(|j| {
-                    let mut entry = Polynomial::atom(chart.m.0[i][j]);
-                    if orbital {
-                        entry.add_term(vec![chart.x[i], chart.p[j]], &Rational::MINUS_ONE);
-                    }
-                    entry
-                })
-                .collect()
-        })
-        .collect()
+    table(chart.dim, |i, j| {
+        let own = Polynomial::atom(chart.m.0[i][j]);
+        if orbital { own.sub(&Polynomial::monomial([chart.x[i], chart.p[j]])) } else { own }
+    })
 }
 
 /// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue, or are not free.
@@ -279,14 +241,10 @@ fn isotropic(
     let dilatation = common(Direction::Dilatation)?;
     // H = |shear|^2/(2 shear) + |skew|^2/(2 rotation) + (tr)^2/(2 n dilatation), rewritten by
     // C(2) = |symmetric|^2 - |skew|^2 and |W|^2 = 2 |skew|^2 (sum over all entries on the right).
-    let mut casimir1_squared = dilatation;
-    casimir1_squared.add_scaled(&shear, &Rational::MINUS_ONE);
-    let nth = Rational::one_over(n);
-    let mut skew = shear.clone();
-    skew.add_scaled(&rotation, &Rational::ONE);
+    let (casimir1_squared, skew) = (dilatation.sub(&shear), shear.add(&rotation));
     Some(Isotropic {
         casimir2: shear,
-        casimir1_squared: casimir1_squared.scaled(&nth),
+        casimir1_squared: casimir1_squared.scaled(&Rational::one_over(n)),
         skew: skew.scaled(&Rational::HALF),
         casimir3: Polynomial::zero(),
     })

@@ -12,7 +12,7 @@ mod lagrangian;
 mod ways;
 
 use crate::algebra::ring::{Square, pairs, table};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Matrix, Polynomial};
 
 use super::brackets::{bracket, gradient};
 use super::charts::{Chart, Coordinate, Momentum};
@@ -77,12 +77,8 @@ impl Kinetics {
             _ => (*y, slope.clone()),
         };
         let slopes: Vec<_> = self.slopes.iter().map(slope).collect();
-        let mut sum = paired(&self.chart, z, &slopes);
-        self.forces
-            .iter()
-            .filter(|(y, _)| *y == z)
-            .for_each(|(_, force)| sum.add_scaled(force, &Rational::ONE));
-        sum
+        let forces = self.forces.iter().filter(|(y, _)| *y == z).map(|(_, force)| force);
+        paired(&self.chart, z, &slopes).add(&forces.sum())
     }
 
     /// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
@@ -114,12 +110,5 @@ impl Kinetics {
 
 /// `sum over y of {z, y} slope_y`.
 fn paired(chart: &Chart, z: Coordinate, slopes: &[(Coordinate, Polynomial)]) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (y, slope) in slopes {
-        let zy = bracket(chart, z, *y);
-        if !zy.is_zero() {
-            sum.add_product(&zy, slope, &Rational::ONE);
-        }
-    }
-    sum
+    slopes.iter().map(|(y, slope)| bracket(chart, z, *y).mul(slope)).sum()
 }

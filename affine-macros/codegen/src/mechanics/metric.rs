@@ -1,6 +1,6 @@
 //! Quantities with their definitions, and those of `phi^-1`.
 
-use crate::algebra::ring::{Square, adjugate, table};
+use crate::algebra::ring::{Square, adjugate, determinant, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::symbol::Quantity;
 
@@ -14,10 +14,10 @@ pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions)
     let (det, inverse_det) =
         (arena.symbol(Quantity::Determinant), arena.symbol(Quantity::InverseDeterminant));
     let cofactors = adjugate(&phi);
-    let determinant: Polynomial = phi[0].iter().zip(&cofactors).map(|(entry, row)| entry.mul(&row[0])).sum();
+
     // A symbol is not the number zero.
     let reciprocal = Polynomial::atom(arena.reciprocal(det));
-    let mut shared = vec![(det, determinant), (inverse_det, reciprocal)];
+    let mut shared = vec![(det, determinant(&phi)), (inverse_det, reciprocal)];
     let inverse = Matrix::symbols(arena, Quantity::InversePlacement, dim);
     for (symbol, cofactor) in inverse.0.iter().flatten().zip(cofactors.iter().flatten()) {
         shared.push((*symbol, cofactor.mul(&Polynomial::atom(inverse_det))));

@@ -5,7 +5,7 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::lower::constant::integer;
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, MatrixName};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator};
 
 /// The values of parts without matrices.
 pub(super) type Scalars<'a> = &'a dyn Fn(&mut Arena, &Expression) -> Option<Expr>;
@@ -49,26 +49,23 @@ impl Tape<'_> {
                 let a = self.read(a)?;
                 self.sum(vec![(a, -&one)])
             }
-            ExpressionKind::Add(a, b) => {
+            ExpressionKind::Binary(operator @ (Operator::Add | Operator::Subtract), a, b) => {
                 let (a, b) = (self.read(a)?, self.read(b)?);
-                self.sum(vec![(a, one.clone()), (b, one)])
+                let sign = if *operator == Operator::Add { one.clone() } else { -&one };
+                self.sum(vec![(a, one), (b, sign)])
             }
-            ExpressionKind::Subtract(a, b) => {
-                let (a, b) = (self.read(a)?, self.read(b)?);
-                self.sum(vec![(a, one.clone()), (b, -&one)])
-            }
-            ExpressionKind::Multiply(a, b) => {
+            ExpressionKind::Binary(Operator::Multiply, a, b) => {
                 let (a, b) = (self.read(a)?, self.read(b)?);
                 self.product(a, b)
             }
-            ExpressionKind::Divide(a, b) => {
+            ExpressionKind::Binary(Operator::Divide, a, b) => {
                 let a = self.read(a)?;
                 let divisor = (self.scalars)(self.arena, b)?;
                 let inverse = self.arena.pow(divisor, -1)?;
                 let inverse = self.scalar(inverse);
                 self.product(inverse, a)
             }
-            ExpressionKind::Power(a, exponent) => {
+            ExpressionKind::Binary(Operator::Power, a, exponent) => {
                 let a = self.read(a)?;
                 let exponent = u32::try_from(integer(exponent, self.n)?).ok()?;
                 self.power(a, exponent)

@@ -1,7 +1,7 @@
 //! What a dissipation leaves as it is: rotations of space, pieces of `H` that commute.
 
-use crate::algebra::ring::{Square, skew, sum, table};
-use crate::algebra::{Polynomial, Rational};
+use crate::algebra::Polynomial;
+use crate::algebra::ring::{Square, pairs, skew, sum, table};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
@@ -42,14 +42,8 @@ impl Dissipation {
         }
         let piece = iso.skew_norm(&spin);
         chart.coordinates().into_iter().all(|z| {
-            let along = |f: &Polynomial| {
-                let mut sum = Polynomial::zero();
-                for (a, row) in force.iter().enumerate() {
-                    for (b, push) in row.iter().enumerate() {
-                        sum.add_product(&f.derivative(chart.m.0[a][b]), push, &Rational::ONE);
-                    }
-                }
-                sum
+            let along = |f: &Polynomial| -> Polynomial {
+                pairs(chart.dim).map(|(a, b)| f.derivative(chart.m.0[a][b]).mul(&force[a][b])).sum()
             };
             let own_rate = match z {
                 Coordinate::M(a, b) => force[a][b].clone(),

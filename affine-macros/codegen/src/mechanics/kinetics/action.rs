@@ -4,7 +4,7 @@
 //! `E G = (E phi)^T phi + phi^T E phi`: for `Sigma_hat`, `E_AB psi_Cj = -d_CB psi_Aj` and
 //! `E_AB G_CD = d_CA G_BD + d_DA G_CB`.
 
-use crate::algebra::ring::{Square, pairs, product, table, transpose};
+use crate::algebra::ring::{Square, dot, pairs, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::brackets::bracket;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -41,11 +41,8 @@ impl Action {
             let of_green = product(&transpose(&moved), &phi);
             let mut image = moved.concat();
             image.extend(of_inverse.concat().iter().map(|p| p.by_names(&units).neg()));
-            for (c, d) in &places {
-                let mut both = of_green[*c][*d].clone();
-                both.add_scaled(&of_green[*d][*c], &Rational::ONE);
-                image.push(both.by_names(&strains));
-            }
+            let both = |(c, d): &(usize, usize)| of_green[*c][*d].add(&of_green[*d][*c]).by_names(&strains);
+            image.extend(places.iter().map(both));
             images.push(image);
         }
         Self { dim: n, quantities: [chart.phi.0.concat(), quantities].concat(), images }
@@ -53,14 +50,7 @@ impl Action {
 
     /// `E_ab f` of a polynomial in such quantities and others, which are held.
     pub(super) fn derivative(&self, f: &Polynomial, a: usize, b: usize) -> Polynomial {
-        let mut sum = Polynomial::zero();
-        let moved = &self.images[self.dim * a + b];
-        for (slope, moved) in f.gradient(&self.quantities).iter().zip(moved) {
-            if !slope.is_zero() && !moved.is_zero() {
-                sum.add_product(slope, moved, &Rational::ONE);
-            }
-        }
-        sum
+        dot(f.gradient(&self.quantities).iter().zip(&self.images[self.dim * a + b]))
     }
 }
 

@@ -81,13 +81,11 @@ impl Lagrangian {
             shared.extend(part.named().map(|(name, sum)| (name, sum.clone())));
         }
         let force = table(self.chart.dim, |a, b| {
-            let mut sum = Polynomial::zero();
-            for (part, found) in self.parts.iter().zip(parts) {
+            let forces = self.parts.iter().zip(parts).map(|(part, found)| {
                 let plain = written_out && part.definitions.is_none();
-                let force = if plain { &found.written_out } else { &found.force };
-                sum.add_scaled(&force[a][b], &Rational::ONE);
-            }
-            sum
+                if plain { &found.written_out[a][b] } else { &found.force[a][b] }
+            });
+            forces.sum()
         });
         Way { shared, force }
     }

@@ -8,7 +8,7 @@
 
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, upper};
+use crate::algebra::ring::{Square, components, pairing, upper};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::group_point::GroupPoint;
@@ -185,22 +185,6 @@ fn quantity(arena: &mut Arena, symbol: Symbol, value: Polynomial, shared: &mut D
     Polynomial::atom(symbol)
 }
 
-/// Indices that the matrix connects.
-fn components(matrix: &Square<Polynomial>) -> Vec<Vec<usize>> {
-    let size = matrix.len();
-    let mut component: Vec<usize> = (0..size).collect();
-    for (i, j) in (0..size).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        if !matrix[i][j].is_zero() {
-            let (keep, drop) = (component[i].min(component[j]), component[i].max(component[j]));
-            component.iter_mut().filter(|c| **c == drop).for_each(|c| *c = keep);
-        }
-    }
-    (0..size)
-        .map(|root| (0..size).filter(|i| component[*i] == root).collect::<Vec<_>>())
-        .filter(|members| !members.is_empty())
-        .collect()
-}
-
 /// A basis of a block in an order without vanishing pivots, and the form in it.
 fn ordered(
     arena: &Arena,
@@ -235,14 +219,6 @@ fn ordered(
     }
     let form = basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
     Some((basis, form))
-}
-
-fn pairing(matrix: &Square<Polynomial>, a: &Direction, b: &Direction) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (k, wk) in a {
-        b.iter().for_each(|(l, wl)| sum.add_scaled(&matrix[*k][*l], &(wk * wl)));
-    }
-    sum
 }
 
 /// The form on the open directions once those of the basis are eliminated, at a point.

@@ -48,6 +48,9 @@ pub(super) enum Along {
 }
 
 impl Base {
+    /// The traces of `G`, of its square and of its cube.
+    pub(super) const TRACES: [Self; 3] = [Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];
+
     /// All base functions in dimension `n`.
     pub fn all(n: usize) -> Vec<Self> {
         let pairs = || pairs(n);

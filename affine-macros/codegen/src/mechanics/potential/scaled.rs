@@ -2,13 +2,13 @@
 //! what is of degree 0 the powers cancel before they leave the range of numbers.
 
 use crate::algebra::arena::Node;
-use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::ring::{Square, pairs, table, upper};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::symbol::Quantity;
 
 use super::base::Base;
-use super::tensors::{UNIT_SQUARES, definitions_of_square, finger, green, squares};
+use super::tensors::{UNIT_SQUARES, definitions_of_square, finger, green, squares, traces};
 
 impl Base {
     /// The power of `D` in it.
@@ -112,30 +112,18 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
     let psi: Vec<Vec<Polynomial>> =
         psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
     let squares = squares(arena, n, UNIT_SQUARES);
-    for (base, square) in [Base::Green as fn(usize, usize) -> Base, Base::Finger].into_iter().zip(&squares) {
-        let tensor: Square<Polynomial> = {
-            let symbol = |a, b| Polynomial::atom(base(a, b).unit(arena));
-            table(n, symbol)
-        };
-        list.extend(definitions_of_square(&tensor, square));
+    let tensors = [Base::Green, Base::Finger].map(|base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+        table(n, |a, b| Polynomial::atom(base(a, b).unit(arena)))
+    });
+    for (tensor, square) in tensors.iter().zip(&squares) {
+        list.extend(definitions_of_square(tensor, square));
     }
-    let (mut trace, mut of_square, mut of_cube) =
-        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
-    for (a, b) in pairs(n) {
-        let [of_green, of_finger] = [Base::Green(a, b), Base::Finger(a, b)].map(|base| base.unit(arena));
-        if a <= b {
-            list.push((of_green, green(&psi, a, b)));
-            list.push((of_finger, finger(&psi, a, b)));
-        }
-        of_square.add_term(vec![of_green, of_green], &Rational::ONE);
-        of_cube.add_product(&Polynomial::atom(of_green), &squares[0][a][b], &Rational::ONE);
-        if a == b {
-            trace.add_term(vec![of_green], &Rational::ONE);
-        }
+    for (a, b) in upper(n) {
+        list.push((Base::Green(a, b).unit(arena), green(&psi, a, b)));
+        list.push((Base::Finger(a, b).unit(arena), finger(&psi, a, b)));
     }
-    list.push((Base::Trace.unit(arena), trace));
-    list.push((Base::TraceOfSquare.unit(arena), of_square));
-    list.push((Base::TraceOfCube.unit(arena), of_cube));
+    let symbols = Base::TRACES.map(|base| base.unit(arena));
+    list.extend(symbols.into_iter().zip(traces(&tensors[0], &squares[0])));
     list
 }
 

@@ -124,11 +124,9 @@ fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
 /// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.
 fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> Polynomial {
     let cofactors = Matrix::symbols(arena, Quantity::Cofactor, chart.dim);
-    let mut sum = Polynomial::zero();
-    for (z, _, rate) in &system.rates {
-        if let Coordinate::Phi(i, a) = *z {
-            sum.add_product(&Polynomial::atom(cofactors.0[i][a]), rate, &Rational::ONE);
-        }
-    }
-    sum.mul(&Polynomial::atom(r))
+    let products = system.rates.iter().filter_map(|(z, _, rate)| match *z {
+        Coordinate::Phi(i, a) => Some(Polynomial::atom(cofactors.0[i][a]).mul(rate)),
+        _ => None,
+    });
+    products.sum::<Polynomial>().mul(&Polynomial::atom(r))
 }
