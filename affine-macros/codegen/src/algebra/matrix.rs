@@ -1,7 +1,8 @@
 //! Small symbolic matrices.
 
 use super::arena::{Arena, Expr};
-use crate::algebra::ring::table;
+use super::polynomial::Polynomial;
+use super::ring::{Square, table};
 use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
@@ -14,6 +15,11 @@ impl Matrix {
     pub fn symbols(arena: &mut Arena, of: impl Into<Symbol>, n: usize) -> Self {
         let of = of.into();
         Self((1..=n).map(|i| (1..=n).map(|j| arena.symbol(of.at([i, j]))).collect()).collect())
+    }
+
+    /// Its entries, which are atoms, as polynomials.
+    pub fn atoms(&self) -> Square<Polynomial> {
+        table(self.dim(), |i, j| Polynomial::atom(self.0[i][j]))
     }
 
     /// Number of rows.

@@ -9,12 +9,11 @@ pub use ratios::RatioProgram;
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::{Asked, Aspect, Capability, Quantity, Symbol};
 
 /// The two-polar form of a doubly isotropic model.
@@ -105,9 +104,8 @@ pub(super) fn two_polar(
     };
     let frames = Frames::new(arena, lattice.dim);
     let inputs: Vec<Expr> = [&lattice.q[..], &lattice.p, &lattice.m, &lattice.n, &frames.symbols()].concat();
-    let mut program = |arena: &mut Arena, batch: &Batch| {
-        fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a)))
-    };
+    let mut program =
+        |arena: &mut Arena, batch: &Batch| super::batch::program(arena, batch, coefficients, &inputs);
     let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
     let framed = framed(arena, &frames, &equations, &stable, rates.clone());
     let energy = energy(&equations, &stable, on_axes.as_ref());

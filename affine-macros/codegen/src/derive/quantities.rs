@@ -4,7 +4,6 @@ use crate::algebra::bind::Constants;
 use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -15,9 +14,10 @@ use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
+use super::batch::{self, program};
 use super::components::Components;
 
 /// Quantities that are emitted where they are asked for.
@@ -109,7 +109,7 @@ fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> O
     let (size, results) = (entries.len(), numbered(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
-    let mut program = |batch: &Batch| fuse(&straight_line(arena, batch, coefficients, &|a| phi.contains(&a)));
+    let mut program = |batch: &Batch| program(arena, batch, coefficients, &phi);
     let entries = program(&entries);
     Some(Metric { size, entries, inverse: program(&inverse) })
 }
@@ -249,10 +249,10 @@ fn acceleration(
         .map(|(i, (_, _, rate))| (Quantity::Acceleration.at([i + 1]), flow.along(arena, rate)))
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs = chart.symbols();
     inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
-    fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+    program(arena, &batch, coefficients, &inputs)
 }
 
 /// The quantities of the balance laws, entry after entry.
@@ -263,12 +263,12 @@ fn balance(
     time: Option<Expr>,
     coefficients: &mut Constants,
 ) -> Balance {
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs = chart.symbols();
     inputs.extend(time);
     let mut program = |results: Vec<(Symbol, Polynomial)>| {
         let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
         let batch = Batch { shared, kernels, results }.pruned(arena);
-        fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+        batch::program(arena, &batch, coefficients, &inputs)
     };
     let numbered = |(of, entries): (Quantity, Vec<Polynomial>)| -> Vec<(Symbol, Polynomial)> {
         entries.into_iter().enumerate().map(|(k, entry)| (of.at([k + 1]), entry)).collect()

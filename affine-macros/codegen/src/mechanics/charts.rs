@@ -135,9 +135,14 @@ impl Chart {
         Self { confined, ..self }
     }
 
+    /// The symbols of its coordinates.
+    pub fn symbols(&self) -> Vec<Expr> {
+        self.coordinates().into_iter().map(|z| self.symbol(z)).collect()
+    }
+
     /// `phi` in its entries.
     pub fn placement(&self) -> Square<Polynomial> {
-        self.phi.0.iter().map(|row| row.iter().map(|entry| Polynomial::atom(*entry)).collect()).collect()
+        self.phi.atoms()
     }
 
     /// Entries of the affine momentum that are linear in others, by those.

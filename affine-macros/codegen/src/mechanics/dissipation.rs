@@ -10,12 +10,12 @@ use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, trans
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
-use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::charts::{Chart, Linear};
 use super::equations::Load;
 use super::hessian::Hessian;
 use super::kinetic::Kinetic;
 use super::metrics::Metrics;
-use super::shared::{CentreVelocity, Shared, atoms, frame_of};
+use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
 use super::term::{Coefficient, Frame, Term};
 
 /// A dissipation function.
@@ -100,15 +100,7 @@ impl Dissipation {
         let mut shared = Shared { arena, list: Vec::new() };
         let (affine, mut power) = self.affine_force(&mut shared, chart);
         let centre = self.centre_force(&mut shared, chart, velocity, &mut power);
-        let mut forces = Vec::new();
-        for (a, b) in pairs(self.dim) {
-            let mut force = affine[a][b].clone();
-            if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
-                force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
-            }
-            forces.push((Coordinate::M(a, b), force));
-        }
-        forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+        let forces = on_momenta(chart, &affine, centre);
         let work = shared.arena.symbol(Quantity::Work);
         Load { shared: shared.list, kernels: Vec::new(), forces, work: Some((work, power)) }
     }
@@ -117,8 +109,8 @@ impl Dissipation {
     /// goes through `phi_dot` and the force `N` on `Pi`, so that `phi^-1` stands once on each way.
     fn affine_force(&self, shared: &mut Shared, chart: &Chart) -> (Square<Polynomial>, Polynomial) {
         let n = self.dim;
-        let phi = atoms(&chart.phi);
-        let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity(), n));
+        let phi = chart.placement();
+        let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
         let phi_dot = shared.phi_dot(chart);
         let zero = table(n, |_, _| Polynomial::zero());
         let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
@@ -167,7 +159,7 @@ impl Dissipation {
                 return self.drag_on_centre(shared, chart, (&x_dot, v_hat.as_deref()), power);
             }
         };
-        let phi = atoms(&chart.phi);
+        let phi = chart.placement();
         let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
         let p_hat = match linear {
             Linear::Body => p.clone(),
@@ -218,7 +210,7 @@ impl Dissipation {
         for (frame, coefficient) in &self.centre {
             let slope = match frame {
                 Frame::Body => {
-                    let inverse = shared.inverse(&atoms(&chart.phi));
+                    let inverse = shared.inverse(&chart.placement());
                     let v_hat = match v_hat {
                         Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
                         None => shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, x_dot)),

@@ -9,7 +9,7 @@ use super::direction::Direction;
 use super::hessian::{Hessian, NumericBlock};
 use super::kinetic::Kinetic;
 use super::metric::Definitions;
-use super::shared::{CentreVelocity, atoms};
+use super::shared::CentreVelocity;
 use super::term::Frame;
 use super::weight::Weight;
 
@@ -93,7 +93,7 @@ impl Hamiltonian {
     /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
     pub fn internal(&self) -> Polynomial {
         if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
-            return iso.energy(&atoms(&self.momentum));
+            return iso.energy(&self.momentum.atoms());
         }
         let product =
             |(a, b): (usize, usize)| Polynomial::atom(self.momentum.0[b][a]).mul(&self.velocity[a][b]);

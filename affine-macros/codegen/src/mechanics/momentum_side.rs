@@ -1,6 +1,6 @@
 //! A Hamiltonian as stated on the momentum side, and the kinetic energy that belongs to it.
 
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
 use super::direction::Direction;
@@ -74,7 +74,7 @@ impl Stated {
     /// groups are those of the Hamiltonian as stated.
     pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
         let spin = Matrix::symbols(arena, self.frame.momentum(), self.dim);
-        let rows = atoms(&spin);
+        let rows = spin.atoms();
         let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
         Kinetic {
             constraint: None,
@@ -155,7 +155,7 @@ impl Stated {
     pub fn hamiltonian(&self, arena: &mut Arena) -> Hamiltonian {
         let momentum = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let invariants = self.invariants();
-        let energy = invariants.energy(&atoms(&momentum));
+        let energy = invariants.energy(&momentum.atoms());
         // O = (dH/dX)^T
         let velocity = momentum.transpose().0.iter().map(|row| energy.gradient(row)).collect();
         Hamiltonian {
@@ -178,9 +178,4 @@ impl Stated {
         let mass = arena.pow(inverse, -1)?;
         Some(Translation { frame: *frame, mass, place: *place })
     }
-}
-
-fn atoms(matrix: &Matrix) -> Vec<Vec<Polynomial>> {
-    let row = |row: &Vec<Expr>| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect();
-    matrix.0.iter().map(row).collect()
 }

@@ -19,7 +19,7 @@ use super::kinetics::Kinetics;
 use super::metric::Definitions;
 use super::mixed::{Internal, Legendre, Masses};
 use super::momentum_side::Stated;
-use super::shared::{CentreVelocity, atoms};
+use super::shared::CentreVelocity;
 use super::term::Frame;
 use crate::symbol::Quantity;
 
@@ -237,7 +237,7 @@ impl Motion {
                 let velocity = h.velocity.iter().map(|row| row.iter().map(|o| chart.reduced(o)).collect());
                 (h.weight_definitions(), velocity.collect())
             }
-            Inverse::Factorised(internal) => (internal.shared.clone(), atoms(&internal.velocity)),
+            Inverse::Factorised(internal) => (internal.shared.clone(), internal.velocity.atoms()),
         }
     }
 

@@ -162,6 +162,11 @@ impl Reduction {
         ways.map(taken).collect()
     }
 
+    /// The symbols of its state.
+    pub fn symbols(&self) -> Vec<Expr> {
+        self.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
+    }
+
     /// Components of the state that vanish.
     pub fn gauge(&self) -> &[Expr] {
         self.turn.as_ref().map_or(&[], |turn| &turn.vanishing)

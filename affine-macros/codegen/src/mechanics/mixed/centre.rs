@@ -9,7 +9,6 @@ use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
 use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Factorised, Quantity};
 
@@ -160,7 +159,7 @@ impl Masses {
         let mut parts = Vec::new();
         parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
-            let psi = atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n));
+            let psi = Matrix::symbols(arena, Quantity::InversePlacement, n).atoms();
             let v_hat: Vec<Expr> = arena.components(Quantity::ComovingCentreVelocity, n);
             let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
             let momenta = shares(arena, Aspect::InTheBody, &chart.p);

@@ -6,7 +6,7 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Lagrangian, Part};
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::{atoms, frame_of};
+use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Quantity};
 
@@ -53,7 +53,7 @@ fn internal(
         return own;
     }
     let (phi, psi, o) =
-        (chart.placement(), atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n)), atoms(velocity));
+        (chart.placement(), Matrix::symbols(arena, Quantity::InversePlacement, n).atoms(), velocity.atoms());
     let form = energy.form();
     let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
     if through_green && stands_in_the_body && same_blocks(&form, n) {

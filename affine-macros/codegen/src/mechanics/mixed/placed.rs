@@ -6,7 +6,6 @@ use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
 use crate::mechanics::metric::{Definitions, inverse_placement};
 use crate::mechanics::potential::Base;
-use crate::mechanics::shared::atoms;
 use crate::mechanics::weight::Weight;
 use crate::symbol::{Quantity, Symbol};
 
@@ -25,7 +24,7 @@ pub(super) struct Placed {
 
 impl Placed {
     pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
-        let phi = atoms(&Matrix::symbols(arena, Quantity::Placement, n));
+        let phi = Matrix::symbols(arena, Quantity::Placement, n).atoms();
         let unit =
             |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
@@ -33,7 +32,7 @@ impl Placed {
             None => {
                 let (inverse, shared) = inverse_placement(arena, n);
                 let green = green(arena, n);
-                Self { inverse: atoms(&inverse), green, inverse_square: None, shared, phi }
+                Self { inverse: inverse.atoms(), green, inverse_square: None, shared, phi }
             }
             Some(Constraint::Rigid) => Self {
                 inverse: transpose(&phi),

@@ -109,8 +109,7 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
     for (i, a) in pairs(n) {
         list.push((psi.0[i][a], Polynomial::monomial([inverse, chart.phi.0[i][a]])));
     }
-    let psi: Vec<Vec<Polynomial>> =
-        psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+    let psi = psi.atoms();
     let squares = squares(arena, n, UNIT_SQUARES);
     let tensors = [Base::Green, Base::Finger].map(|base: fn(usize, usize) -> Base| -> Square<Polynomial> {
         table(n, |a, b| Polynomial::atom(base(a, b).unit(arena)))

@@ -390,9 +390,7 @@ impl Means {
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
         let phi = if unit { symbols(Base::Placement) } else { chart.placement() };
-        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
-        let cofactors =
-            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).atoms();
         let squares = squares(arena, n, if unit { UNIT_SQUARES } else { SQUARES });
         Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
     }

@@ -135,11 +135,7 @@ impl Symbols {
     /// A polynomial of the lattice in these symbols.
     fn in_ratios(&self, stable: &Stable, lattice: &Lattice, polynomial: &Polynomial) -> Polynomial {
         let quotients = stable.quotients();
-        let one_and = |t: Expr, sign: Rational| {
-            let mut sum = Polynomial::constant(Rational::ONE);
-            sum.add_term(vec![t], &sign);
-            sum
-        };
+        let one = Polynomial::constant(Rational::ONE);
         let value = |atom: Expr| {
             if let Some(coupling) = self.coupling(lattice, atom) {
                 return Some(coupling);
@@ -149,7 +145,8 @@ impl Symbols {
             })?;
             let (t, r) = (self.ratio[k], self.recip[k]);
             // (1 + t) and (1 - t) over one denominator: 1/(1 - t) = (1 + t) r.
-            let side = one_and(t, if which % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE });
+            let t_alone = Polynomial::atom(t);
+            let side = if which % 2 == 0 { one.add(&t_alone) } else { one.sub(&t_alone) };
             let factor = if which < 2 { vec![t, r, r] } else { vec![r] };
             Some(side.mul(&side).mul(&Polynomial::monomial(factor)))
         };
@@ -177,27 +174,19 @@ fn pair(
     {
         shared.push((ratio, Polynomial::monomial([first, second])));
     }
-    let square_and = |sign: Rational| {
-        let mut sum = Polynomial::constant(Rational::ONE);
-        sum.add_term(vec![square], &sign);
-        sum
-    };
+    let one = Polynomial::constant(Rational::ONE);
     // A symbol is not the number zero.
     let below = arena.reciprocal(gap);
     shared.extend([
         (square, Polynomial::monomial([ratio, ratio])),
-        (gap, square_and(Rational::MINUS_ONE)),
-        (even, square_and(Rational::ONE)),
+        (gap, one.sub(&Polynomial::atom(square))),
+        (even, one.add(&Polynomial::atom(square))),
         (twice, Polynomial::term(vec![ratio], Rational::from(2))),
         (recip, Polynomial::atom(below)),
         (decay, Polynomial::monomial([ratio, recip])),
     ]);
     // t^2 = even - 1, t = twice/2.
-    let even_less = {
-        let mut less = Polynomial::atom(even);
-        less.add_term(Vec::new(), &Rational::MINUS_ONE);
-        less
-    };
+    let even_less = Polynomial::atom(even).sub(&one);
     let paired = |primitive: &Polynomial| {
         let mut sum = Polynomial::zero();
         for (monomial, c) in primitive.terms() {
@@ -267,9 +256,8 @@ fn force(rate: &Polynomial, pairs: &[Pair]) -> Polynomial {
 /// `U` and `W` through the brackets, with `dH/dM = (theta_hat + chi_hat)/2` and `dH/dN = (theta_hat - chi_hat)/2`.
 fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, Polynomial)> {
     let slope = |pair: &Pair, sign: &Rational| {
-        let mut slope = Polynomial::term(vec![pair.angular[1]], Rational::HALF);
-        slope.add_term(vec![pair.angular[0]], &(sign * &Rational::HALF));
-        slope
+        let [chi, theta] = pair.angular.map(Polynomial::atom);
+        theta.add(&chi.scaled(sign)).scaled(&Rational::HALF)
     };
     let rate = |z: Coordinate| {
         let mut sum = Polynomial::zero();
@@ -286,9 +274,7 @@ fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, P
     };
     let combined = |pair: &Pair, sign: &Rational| {
         let (a, b) = pair.at;
-        let mut sum = rate(Coordinate::M(a, b)).scaled(&Rational::HALF);
-        sum.add_scaled(&rate(Coordinate::N(a, b)), &(sign * &Rational::HALF));
-        sum
+        rate(Coordinate::M(a, b)).add(&rate(Coordinate::N(a, b)).scaled(sign)).scaled(&Rational::HALF)
     };
     let sums = pairs.iter().map(|pair| (pair.u, combined(pair, &Rational::ONE)));
     let differences = pairs.iter().map(|pair| (pair.w, combined(pair, &Rational::MINUS_ONE)));
