@@ -165,7 +165,7 @@ fn own_dilatation(
     let inverse_mass = iso.inverse_dilatational_mass(chart.dim);
     let rows = spatial_or_own(chart).into_iter().enumerate();
     let spin: Vec<Polynomial> = rows.filter_map(|(a, row)| row.into_iter().nth(a)).collect();
-    let trace: Polynomial = spin.iter().map(|entry| entry).sum();
+    let trace: Polynomial = spin.iter().sum();
     let mut energy = Polynomial::zero();
     energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::HALF);
     let mut h = h.clone();

@@ -141,11 +141,11 @@ fn to_prepare(
     let filled = changed(term, frame, [&space, &body], &ones);
     let number = rebased.len() + 1;
     let entries = given.iter().flatten().map(|entry| entry.expression(arena)).collect();
-    let mut symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
+    let symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
         true => arena.constant(Rational::ZERO),
         false => arena.symbol(Symbol::Prepared(number, r.min(s) + 1, r.max(s) + 1)),
     };
-    let symbols = table(given.len(), |r, s| symbol(r, s));
+    let symbols = table(given.len(), symbol);
     rebased.push(Rebased { number, source: Source::Form(term.kind, entries) });
     Matrix(symbols)
 }
