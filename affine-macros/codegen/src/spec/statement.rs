@@ -10,7 +10,6 @@ use crate::diagnostics::Region;
 use crate::symbol::{Asked, Capability, Constraint, TermKind};
 
 /// A model as stated by the attribute and the struct below it.
-#[must_use]
 pub struct Spec {
     /// The user's struct.
     pub item: Item,
