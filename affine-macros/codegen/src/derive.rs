@@ -33,7 +33,7 @@ use crate::mechanics::describe::{Described, Notation};
 use crate::mechanics::form::Form;
 use crate::mechanics::motion::Motion;
 use crate::optimise::straight_line;
-use crate::symbol::Quantity;
+use crate::symbol::{Capability, Quantity};
 
 use body::Kept;
 use prepared::{coefficient_program, damping, numeric_blocks};
@@ -82,7 +82,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         forces: &forces,
         metrics: form.metrics.as_ref(),
         rebased: &form.rebased,
-        latex: asked.latex,
+        latex: asked.has(Capability::Latex),
     };
     let notation = Notation::new(arena, &described);
     let formulas = body.formulas(arena, &notation, &chart, &reduction, closed_form)?;
@@ -95,7 +95,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         // Nothing but the lattice is emitted: no other coefficient is computed.
         coefficients = Constants::new(Quantity::Coefficient);
     }
-    let lattice = motion.hamiltonian().filter(|_| asked.two_polar);
+    let lattice = motion.hamiltonian().filter(|_| asked.has(Capability::TwoPolar));
     let two_polar = lattice.map(|h| {
         lattice::two_polar(arena, &notation, h, potential, (form.unitary, asked), &mut coefficients)
     });

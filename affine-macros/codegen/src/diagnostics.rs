@@ -48,7 +48,6 @@ pub struct Region {
 
 impl Region {
     /// From the start of one region to the end of another.
-    #[must_use]
     pub fn to(self, last: impl Into<Region>) -> Self {
         Self { start: self.start, end: last.into().end }
     }
@@ -99,6 +98,7 @@ pub fn gate<T>(pass: impl FnOnce(&mut Diagnostics) -> Result<T, Reported>) -> Re
 
 /// A model that was refused, with every reason.
 #[derive(Debug)]
+#[must_use]
 pub struct Rejected {
     found: Vec<(Region, Diagnostic)>,
 }
@@ -110,14 +110,12 @@ impl Rejected {
     }
 
     /// These reasons, and those of another refusal after them.
-    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.found.extend(other.found);
         self
     }
 
     /// One `::core::compile_error! { "..." }` for each reason, where the mistake is.
-    #[must_use]
     pub fn compile_errors(&self) -> TokenStream {
         self.found.iter().flat_map(|(at, diagnostic)| compile_error(*at, &diagnostic.to_string())).collect()
     }

@@ -46,7 +46,6 @@ pub enum Op {
 
 impl Op {
     /// The values it reads.
-    #[must_use]
     pub fn operands(&self) -> Vec<Value> {
         match *self {
             Op::Input(_) | Op::Constant(_) => Vec::new(),
@@ -59,6 +58,7 @@ impl Op {
 
 /// A straight-line program: every step reads earlier ones only.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[must_use]
 pub struct Program {
     /// The steps in order.
     pub steps: Vec<Op>,
@@ -80,7 +80,6 @@ impl Program {
     }
 
     /// What it reads, as a list.
-    #[must_use]
     pub fn inputs(&self) -> Vec<Symbol> {
         self.symbols().cloned().collect()
     }
@@ -91,7 +90,6 @@ impl Program {
     }
 
     /// Name of a value: what the derivation calls it, or its place.
-    #[must_use]
     pub fn name(&self, value: Value) -> Symbol {
         match &self.steps[value] {
             Op::Input(symbol) => symbol.clone(),
@@ -100,14 +98,12 @@ impl Program {
     }
 
     /// What the derivation calls a value that is computed.
-    #[must_use]
     pub fn own_name(&self, value: Value) -> Option<&Symbol> {
         let output = self.outputs.iter().find(|(_, v)| *v == value).map(|(name, _)| name);
         self.names.iter().find(|(v, _)| *v == value).map(|(_, name)| name).or(output)
     }
 
     /// How often each value is read, by steps, by calls and as a result.
-    #[must_use]
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.steps.len()];
         for step in &self.steps {
@@ -119,7 +115,6 @@ impl Program {
     }
 
     /// The program of one result alone.
-    #[must_use]
     pub fn only(&self, result: &Symbol) -> Self {
         let mut program = self.clone();
         program.outputs.retain(|(name, _)| name == result);
@@ -127,7 +122,6 @@ impl Program {
     }
 
     /// The call that provides the value, if it is an input that a call provides.
-    #[must_use]
     pub fn call_before(&self, value: Value) -> Option<&Call> {
         match &self.steps[value] {
             Op::Input(symbol) => self.calls.iter().find(|call| call.provides(symbol)),
@@ -136,7 +130,6 @@ impl Program {
     }
 
     /// Keeps only what the results need, in the same order.
-    #[must_use]
     pub fn without_dead_steps(&self) -> Self {
         let mut needed = vec![false; self.steps.len()];
         self.outputs.iter().for_each(|(_, v)| needed[*v] = true);
@@ -168,7 +161,6 @@ impl Program {
 
 impl Op {
     /// The same operation on renumbered values.
-    #[must_use]
     pub fn renumbered(&self, place: &[Value]) -> Self {
         match self {
             Op::Input(_) | Op::Constant(_) => self.clone(),

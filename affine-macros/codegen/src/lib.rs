@@ -37,13 +37,11 @@ use diagnostics::{FaultMistake, Rejected, gate};
 use spec::{Capability, Spanned};
 
 /// The expansion of `#[affine_model(args)] item`, of a refused model its reasons and a stand-in.
-#[must_use]
 pub fn expand(args: TokenStream, item: TokenStream) -> TokenStream {
     expanded(args, item, &[])
 }
 
 /// The same where reports show the formulas of every model: in LaTeX, as `emit(latex)` asks for.
-#[must_use]
 pub fn expand_for_reports(args: TokenStream, item: TokenStream) -> TokenStream {
     expanded(args, item, &[Capability::Latex])
 }

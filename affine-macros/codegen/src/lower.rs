@@ -16,7 +16,7 @@ use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::term::{Coefficient, Frame, Term};
-use crate::spec::{self, Expression, ExpressionKind, Spec, Value};
+use crate::spec::{self, Expression, ExpressionKind, Operator, Spec, Value};
 use crate::symbol::Symbol;
 
 pub(crate) use base_functions::{difference_of, energy};
@@ -131,25 +131,13 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
             let a = of(a)?;
             Some(arena.neg(a))
         }
-        ExpressionKind::Add(a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            Some(arena.add(a, b))
-        }
-        ExpressionKind::Subtract(a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            Some(arena.sub(a, b))
-        }
-        ExpressionKind::Multiply(a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            Some(arena.mul(a, b))
-        }
-        ExpressionKind::Divide(a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            arena.div(a, b)
-        }
-        ExpressionKind::Power(a, exponent) => {
+        ExpressionKind::Binary(Operator::Power, a, exponent) => {
             let a = of(a)?;
             arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
+        }
+        ExpressionKind::Binary(operator, a, b) => {
+            let (a, b) = (of(a)?, of(b)?);
+            combined(arena, *operator, a, b)
         }
         ExpressionKind::Call(..)
         | ExpressionKind::Trace(_)
@@ -160,5 +148,16 @@ pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<
         | ExpressionKind::Component(_)
         | ExpressionKind::Norm
         | ExpressionKind::Pairs(_) => None,
+    }
+}
+
+/// What an operator makes of two values; nothing of a power, whose exponent is read as a number.
+fn combined(arena: &mut Arena, operator: Operator, a: Expr, b: Expr) -> Option<Expr> {
+    match operator {
+        Operator::Add => Some(arena.add(a, b)),
+        Operator::Subtract => Some(arena.sub(a, b)),
+        Operator::Multiply => Some(arena.mul(a, b)),
+        Operator::Divide => arena.div(a, b),
+        Operator::Power => None,
     }
 }

@@ -1,6 +1,5 @@
 //! From a kinetic energy to Hamilton's equations; never sees tokens. One file per step.
 
-pub mod asked;
 pub mod balance;
 pub mod body;
 pub mod brackets;

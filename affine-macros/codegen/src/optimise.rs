@@ -26,7 +26,6 @@ pub struct Batch {
 
 impl Batch {
     /// Without the shared quantities that no result needs.
-    #[must_use]
     pub fn pruned(self, arena: &Arena) -> Self {
         let Self { shared, results, kernels } = self;
         let mut needed: FxHashSet<Expr> = FxHashSet::default();

@@ -23,13 +23,14 @@ use crate::diagnostics::{Diagnostics, Reported};
 use expression_parser::Language;
 pub(crate) use expression_parser::application;
 
+pub use crate::symbol::Capability;
 pub use custom::{Custom, Mark, Role, SelfGravity};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator, PolynomialTrace, more_factors};
 pub use item::{Field, Item};
 pub use matrix_field::Storage;
 pub use momentum_side::MomentumKind;
 pub use named_potentials::{NAMED_POTENTIALS, NamedPotential};
-pub use names::{Capability, Claim, Named, PlacementGroup, Requirement, nearest};
+pub use names::{Claim, Named, PlacementGroup, Requirement, nearest};
 pub use spanned::Spanned;
 pub use statement::{Metric, Potential, Spec, Symmetry, Term, Value};
 pub(crate) use symbol::numbered;

@@ -11,7 +11,6 @@ use crate::{check, derive, emit};
 /// The user's item with the reasons for its refusal. Where the item can be read, it gets the methods of a
 /// well-posed model of the same dimension, with translation, potential, capabilities and fields as written, so that its uses
 /// raise no errors of their own.
-#[must_use]
 pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> TokenStream {
     let errors = rejected.compile_errors();
     let item = stand_in(args, item).unwrap_or_else(|| item.clone());

@@ -1,17 +1,20 @@
 //! Symbols of formulas and programs. What a symbol is, is decided by its type; its name is made of that, in one place.
 
+mod capability;
 mod constraint;
 mod quantity;
 mod term;
 
 use std::fmt::{Display, Formatter, Result};
 
+pub use capability::{Asked, Capability};
 pub use constraint::Constraint;
 pub use quantity::Quantity;
 pub use term::{Frame, Pattern, TermKind};
 
 /// An indeterminate; indices count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[must_use]
 pub enum Symbol {
     /// A field of the user's struct that is a number.
     Field(String),
@@ -86,7 +89,6 @@ pub enum Factorised {
 
 impl Symbol {
     /// Of a quantity the component with these indices behind its own; any other symbol as it is.
-    #[must_use]
     pub fn at<const N: usize>(&self, indices: [usize; N]) -> Self {
         match self {
             Self::Component(quantity, own) => Self::Component(*quantity, [own, &indices[..]].concat()),
@@ -95,7 +97,6 @@ impl Symbol {
     }
 
     /// The component of another quantity with the same indices; any other symbol as it is.
-    #[must_use]
     pub fn of(self, quantity: Quantity) -> Self {
         match self {
             Self::Component(_, indices) => Self::Component(quantity, indices),
@@ -104,13 +105,11 @@ impl Symbol {
     }
 
     /// What is to be said about it.
-    #[must_use]
     pub fn seen(self, aspect: Aspect) -> Self {
         Self::About(aspect, Box::new(self))
     }
 
     /// The symbol that it is a power of, and the exponent.
-    #[must_use]
     pub fn power(&self) -> Option<(Self, i32)> {
         match self {
             Self::Component(quantity, indices) => {
@@ -125,7 +124,6 @@ impl Symbol {
     }
 
     /// Its indices; none where it is no component of something.
-    #[must_use]
     pub fn indices(&self) -> &[usize] {
         match self {
             Self::Component(_, indices) | Self::Factor(.., indices) => indices,
@@ -135,7 +133,6 @@ impl Symbol {
     }
 
     /// The same with other indices, where it has some.
-    #[must_use]
     pub fn with_indices(&self, indices: &[usize]) -> Self {
         match self {
             Self::Component(quantity, _) => Self::Component(*quantity, indices.to_vec()),
@@ -149,7 +146,6 @@ impl Symbol {
     }
 
     /// The quantity that it is, or is a component of.
-    #[must_use]
     pub fn quantity(&self) -> Option<Quantity> {
         match self {
             Self::Component(quantity, _) => Some(*quantity),
@@ -158,7 +154,6 @@ impl Symbol {
     }
 
     /// Is it a parameter of the model: a field, or what `prepare()` makes of fields?
-    #[must_use]
     pub fn is_parameter(&self) -> bool {
         matches!(self, Self::Field(_) | Self::Entry(..) | Self::Prepared(..))
     }
@@ -166,7 +161,6 @@ impl Symbol {
 
 impl Quantity {
     /// The component with these indices.
-    #[must_use]
     pub fn at<const N: usize>(self, indices: [usize; N]) -> Symbol {
         Symbol::Component(self, indices.to_vec())
     }

@@ -30,11 +30,16 @@ fn grouped(expression: &Expression) -> String {
         ExpressionKind::Symbol(name) => name.to_string(),
         ExpressionKind::FieldEntry(field, row, column) => format!("{field}[{row},{column}]"),
         ExpressionKind::Negate(one) => format!("(-{})", grouped(one)),
-        ExpressionKind::Add(left, right) => pair(left, "+", right),
-        ExpressionKind::Subtract(left, right) => pair(left, "-", right),
-        ExpressionKind::Multiply(left, right) => pair(left, "*", right),
-        ExpressionKind::Divide(left, right) => pair(left, "/", right),
-        ExpressionKind::Power(left, right) => pair(left, "^", right),
+        ExpressionKind::Binary(operator, left, right) => {
+            let sign = match operator {
+                Operator::Add => "+",
+                Operator::Subtract => "-",
+                Operator::Multiply => "*",
+                Operator::Divide => "/",
+                Operator::Power => "^",
+            };
+            pair(left, sign, right)
+        }
         ExpressionKind::Call(function, one) => format!("{}({})", function.name(), grouped(one)),
         ExpressionKind::Trace(factors) => {
             format!("tr({})", factors.iter().map(|factor| factor.name()).collect::<Vec<_>>().join("*"))

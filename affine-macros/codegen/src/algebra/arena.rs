@@ -32,6 +32,9 @@ pub enum Node {
     Function(Function, Expr),
 }
 
+/// Why products that are rewritten divide by nothing new.
+const KEPT: &str = "bases that are rewritten keep their values, and were not the number zero";
+
 /// Owner of expressions.
 #[derive(Debug, Default)]
 pub struct Arena {
@@ -41,13 +44,11 @@ pub struct Arena {
 
 impl Arena {
     /// An empty arena.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The root node of an expression.
-    #[must_use]
     pub fn node(&self, expr: Expr) -> &Node {
         &self.nodes[expr.0 as usize]
     }
@@ -81,7 +82,6 @@ impl Arena {
     }
 
     /// The number an expression is, if it is one.
-    #[must_use]
     pub fn as_constant(&self, expr: Expr) -> Option<&Rational> {
         match self.node(expr) {
             Node::Constant(value) => Some(value),
@@ -100,7 +100,6 @@ impl Arena {
     }
 
     /// The symbol that an expression is, if it is one.
-    #[must_use]
     pub fn as_symbol(&self, expr: Expr) -> Option<&Symbol> {
         match self.node(expr) {
             Node::Symbol(symbol) => Some(symbol),
@@ -109,19 +108,16 @@ impl Arena {
     }
 
     /// The quantity that an expression is a component of, if it is a symbol of one.
-    #[must_use]
     pub fn quantity(&self, expr: Expr) -> Option<Quantity> {
         self.as_symbol(expr).and_then(Symbol::quantity)
     }
 
     /// Is it a parameter of the model?
-    #[must_use]
     pub fn is_parameter(&self, expr: Expr) -> bool {
         self.as_symbol(expr).is_some_and(Symbol::is_parameter)
     }
 
     /// The symbol that an expression is for sure.
-    #[must_use]
     #[track_caller]
     pub fn symbol_of(&self, expr: Expr) -> Symbol {
         let symbol = self.as_symbol(expr).cloned();
@@ -129,7 +125,6 @@ impl Arena {
     }
 
     /// Name of an expression that is a symbol.
-    #[must_use]
     #[track_caller]
     pub fn symbol_name(&self, symbol: Expr) -> String {
         self.symbol_of(symbol).to_string()
@@ -218,11 +213,7 @@ impl Arena {
     #[track_caller]
     pub fn certain_product(&mut self, factors: &[(Expr, i32)]) -> Expr {
         let product = self.product(factors);
-        never_missing(
-            product,
-            "bases that are rewritten keep their values, and were not the number zero",
-            Expr(0),
-        )
+        never_missing(product, KEPT, Expr(0))
     }
 
     /// `a / b`; `None` where `b` is zero.
@@ -292,22 +283,73 @@ impl Arena {
     /// Does `wanted` hold for any symbol below `expr`?
     pub fn any_symbol(&self, expr: Expr, wanted: &mut impl FnMut(Expr) -> bool) -> bool {
         match self.node(expr) {
-            Node::Constant(_) => false,
             Node::Symbol(_) => wanted(expr),
-            Node::Sum(_, terms) => terms.iter().any(|(term, _)| self.any_symbol(*term, wanted)),
-            Node::Product(factors) => factors.iter().any(|(base, _)| self.any_symbol(*base, wanted)),
-            Node::Function(_, argument) => self.any_symbol(*argument, wanted),
+            _ => self.any_part(expr, &mut |part| self.any_symbol(part, wanted)),
         }
+    }
+
+    /// Does `wanted` hold for anything right below the root of `expr`?
+    pub fn any_part(&self, expr: Expr, wanted: &mut dyn FnMut(Expr) -> bool) -> bool {
+        match self.node(expr) {
+            Node::Constant(_) | Node::Symbol(_) => false,
+            Node::Sum(_, terms) => terms.iter().any(|(term, _)| wanted(*term)),
+            Node::Product(factors) => factors.iter().any(|(base, _)| wanted(*base)),
+            Node::Function(_, argument) => wanted(*argument),
+        }
+    }
+
+    /// What stands right below the root of `expr`.
+    pub fn parts(&self, expr: Expr) -> Vec<Expr> {
+        let mut parts = Vec::new();
+        self.any_part(expr, &mut |part| {
+            parts.push(part);
+            false
+        });
+        parts
+    }
+
+    /// The expression with what stands right below its root replaced; `None` where a part has no value, or where a divisor
+    /// becomes zero.
+    pub fn with_parts(
+        &mut self,
+        expr: Expr,
+        value: &mut dyn FnMut(&mut Self, Expr) -> Option<Expr>,
+    ) -> Option<Expr> {
+        match self.node(expr).clone() {
+            Node::Constant(_) | Node::Symbol(_) => Some(expr),
+            Node::Sum(constant, terms) => {
+                let mut summands = vec![(self.constant(constant), Rational::ONE)];
+                for (term, c) in terms {
+                    summands.push((value(self, term)?, c));
+                }
+                Some(self.linear(&summands))
+            }
+            Node::Product(factors) => {
+                let mut product = Vec::with_capacity(factors.len());
+                for (base, exponent) in factors {
+                    product.push((value(self, base)?, exponent));
+                }
+                self.product(&product)
+            }
+            Node::Function(function, argument) => {
+                let argument = value(self, argument)?;
+                Some(self.apply(function, argument))
+            }
+        }
+    }
+
+    /// The same where all parts keep their values, so that no divisor becomes zero.
+    #[track_caller]
+    pub fn rebuilt(&mut self, expr: Expr, part: &mut dyn FnMut(&mut Self, Expr) -> Expr) -> Expr {
+        let rebuilt = self.with_parts(expr, &mut |arena, of| Some(part(arena, of)));
+        never_missing(rebuilt, KEPT, expr)
     }
 
     /// Calls `visit` once for every symbol below `expr`.
     pub fn for_each_symbol(&self, expr: Expr, visit: &mut impl FnMut(&Symbol)) {
-        match self.node(expr) {
-            Node::Constant(_) => {}
-            Node::Symbol(symbol) => visit(symbol),
-            Node::Sum(_, terms) => terms.iter().for_each(|(term, _)| self.for_each_symbol(*term, visit)),
-            Node::Product(factors) => factors.iter().for_each(|(b, _)| self.for_each_symbol(*b, visit)),
-            Node::Function(_, argument) => self.for_each_symbol(*argument, visit),
-        }
+        self.any_symbol(expr, &mut |symbol| {
+            self.as_symbol(symbol).into_iter().for_each(&mut *visit);
+            false
+        });
     }
 }

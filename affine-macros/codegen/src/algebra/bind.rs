@@ -17,13 +17,11 @@ pub struct Constants {
 
 impl Constants {
     /// No constants yet; they will be the components 1, 2, ... of a quantity.
-    #[must_use]
     pub fn new(of: Quantity) -> Self {
         Self { of, entries: Vec::new() }
     }
 
     /// Is the symbol one of these constants?
-    #[must_use]
     pub fn contains(&self, symbol: Expr) -> bool {
         self.entries.iter().any(|(s, _)| *s == symbol)
     }

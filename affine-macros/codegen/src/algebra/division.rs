@@ -8,7 +8,6 @@ use super::polynomial::{Monomial, Polynomial};
 use super::rational::Rational;
 
 /// The product of powers of atoms that divides every term, and what is left.
-#[must_use]
 pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
     let mut common: Option<Monomial> = None;
     for (monomial, _) in polynomial.terms() {
@@ -18,15 +17,12 @@ pub fn content(polynomial: &Polynomial) -> (Monomial, Polynomial) {
         });
     }
     let common = common.unwrap_or_default();
-    let mut rest = Polynomial::zero();
-    for (monomial, c) in polynomial.terms() {
-        rest.add_term(rest_of(monomial, &common), c);
-    }
+    let rest: Polynomial =
+        polynomial.terms().map(|(monomial, c)| Polynomial::term(rest_of(monomial, &common), c.clone())).sum();
     (common, rest)
 }
 
 /// `dividend/divisor` where that is a polynomial.
-#[must_use]
 pub fn quotient(dividend: &Polynomial, divisor: &Polynomial) -> Option<Polynomial> {
     let (lead, weight) = leading(divisor)?;
     let (mut rest, mut result) = (dividend.clone(), Polynomial::zero());
@@ -95,7 +91,7 @@ mod tests {
         assert_eq!(quotient(&sum(&product, &x, 1), &first), None);
         assert_eq!(quotient(&product, &Polynomial::zero()), None);
         let (common, rest) = content(&x.mul(&y).mul(&sum(&y, &z, 1)));
-        assert_eq!(Polynomial::term(common, Rational::ONE), x.mul(&y));
+        assert_eq!(Polynomial::monomial(common), x.mul(&y));
         assert_eq!(rest, sum(&y, &z, 1));
     }
 }

@@ -31,11 +31,7 @@ pub fn complete_sums(
             *polynomial = completed;
         }
     }
-    let total = |atoms: &Vec<Expr>| {
-        let mut sum = Polynomial::zero();
-        atoms.iter().for_each(|atom| sum.add_term(vec![*atom], &Rational::ONE));
-        sum
-    };
+    let total = |atoms: &Vec<Expr>| atoms.iter().map(|atom| Polynomial::monomial([*atom])).sum();
     sums.iter().map(|(atoms, symbol)| (*symbol, total(atoms))).collect()
 }
 
@@ -186,7 +182,6 @@ pub enum First {
 }
 
 /// A number other than one that all terms of a polynomial have, two or more.
-#[must_use]
 pub fn number_of_all(polynomial: &Polynomial) -> Option<Rational> {
     let mut terms = polynomial.terms();
     let number = terms.next()?.1.abs();

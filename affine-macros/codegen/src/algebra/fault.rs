@@ -16,7 +16,6 @@ pub struct Fault {
 
 impl Fault {
     /// File and line of the generator; of the file what does not depend on where it was built.
-    #[must_use]
     pub fn place(&self) -> String {
         let file = self.at.file().replace('\\', "/");
         let within = file.rsplit_once("/src/").map_or(file.as_str(), |(_, within)| within);

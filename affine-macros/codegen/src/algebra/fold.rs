@@ -10,7 +10,6 @@ impl Polynomial {
     /// The polynomial with the name of every sum that it contains a multiple of; as it was where that makes it no shorter.
     /// A name may be a number: `(1, psi_1k phi_k1)` uses that the sum is 1. Where two products have met, a term may have
     /// more than the multiple needs of it.
-    #[must_use]
     pub fn by_names(&self, names: &[(Self, Self)]) -> Self {
         let mut open: FxHashMap<Monomial, Rational> = FxHashMap::default();
         open.extend(self.terms().map(|(monomial, c)| (monomial.clone(), c.clone())));
@@ -36,7 +35,6 @@ impl Polynomial {
     }
 
     /// What is left of it without a product of atoms; `None` where a term has not all of them.
-    #[must_use]
     pub fn over(&self, monomial: &[Expr]) -> Option<Self> {
         let mut quotient = Self::zero();
         for (of_term, c) in self.terms() {

@@ -37,7 +37,6 @@ pub enum Function {
 
 impl Function {
     /// Its name, in specifications as in Rust.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Exp => "exp",

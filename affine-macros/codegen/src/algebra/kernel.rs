@@ -92,7 +92,6 @@ impl Kernel {
     }
 
     /// The same call with other arguments.
-    #[must_use]
     pub fn with_arguments(&self, mut value: impl FnMut(&Polynomial) -> Polynomial) -> Self {
         let arguments = self.arguments.iter().map(|group| group.map(&mut value)).collect();
         Self { callee: self.callee, arguments, results: self.results.clone() }

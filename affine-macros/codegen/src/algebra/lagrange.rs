@@ -137,10 +137,8 @@ mod tests {
             indefinite += usize::from(form[0][0].is_zero());
             for i in 0..size {
                 for j in 0..size {
-                    let mut sum = Polynomial::zero();
-                    for (weight, row) in &squares {
-                        sum.add_product(&row[i].mul(&row[j]), weight, &Rational::ONE);
-                    }
+                    let sum: Polynomial =
+                        squares.iter().map(|(weight, row)| row[i].mul(&row[j]).mul(weight)).sum();
                     assert_eq!(sum, form[i][j], "{form:?}");
                 }
             }

@@ -51,7 +51,6 @@ fn eliminate(rows: &mut Whole, target: usize, k: usize, previous: &BigInt) {
 }
 
 /// Inverse by Gauss-Jordan elimination; `None` where the matrix is singular.
-#[must_use]
 pub fn inverse(matrix: &Square) -> Option<Square> {
     let n = matrix.len();
     let (mut rows, denominator) = whole(matrix);
@@ -73,7 +72,6 @@ pub fn inverse(matrix: &Square) -> Option<Square> {
 }
 
 /// Sylvester's inertia of a symmetric matrix by exact congruences, with a kernel vector where it is degenerate.
-#[must_use]
 pub fn inertia(matrix: &Square) -> Inertia {
     let n = matrix.len();
     let (mut form, _) = whole(matrix);
@@ -125,7 +123,6 @@ fn bring_pivot(form: &mut Whole, k: usize) -> bool {
 
 /// A vector on which a symmetric form is negative; `None` where the form is positive semidefinite. Congruences by
 /// positive squares, whose basis vectors are followed along.
-#[must_use]
 pub fn negative_direction(matrix: &Square) -> Option<Vec<Rational>> {
     let n = matrix.len();
     let mut form = matrix.clone();

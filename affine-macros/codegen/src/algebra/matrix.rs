@@ -1,10 +1,13 @@
 //! Small symbolic matrices.
 
 use super::arena::{Arena, Expr};
+use super::polynomial::Polynomial;
+use super::ring::{Square, table};
 use crate::symbol::Symbol;
 
 /// A matrix of expressions, row after row.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Matrix(pub Vec<Vec<Expr>>);
 
 impl Matrix {
@@ -14,16 +17,19 @@ impl Matrix {
         Self((1..=n).map(|i| (1..=n).map(|j| arena.symbol(of.at([i, j]))).collect()).collect())
     }
 
+    /// Its entries, which are atoms, as polynomials.
+    pub fn atoms(&self) -> Square<Polynomial> {
+        table(self.dim(), |i, j| Polynomial::atom(self.0[i][j]))
+    }
+
     /// Number of rows.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.0.len()
     }
 
     /// Transpose.
-    #[must_use]
     pub fn transpose(&self) -> Self {
         let n = self.dim();
-        Self((0..n).map(|i| (0..n).map(|j| self.0[j][i]).collect()).collect())
+        Self(table(n, |i, j| self.0[j][i]))
     }
 }

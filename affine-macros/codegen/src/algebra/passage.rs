@@ -41,7 +41,6 @@ pub enum Word {
 
 impl Word {
     /// Its name in code.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Start => "t0",
@@ -198,6 +197,7 @@ pub enum Extent {
 
 /// The way from a phase point to a state and back.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[must_use]
 pub struct Passage {
     /// From a phase point to the components of the state.
     pub inward: Vec<Statement>,
@@ -215,7 +215,6 @@ pub struct Passage {
 
 impl Passage {
     /// Components of the affine momentum that are constants, while others are state.
-    #[must_use]
     pub fn fixed(&self) -> Vec<Symbol> {
         let starts = self.constants.iter().filter_map(|constant| constant.start.as_ref());
         let lists = starts.filter_map(|start| match start {
@@ -228,37 +227,31 @@ impl Passage {
 
 impl Tensor {
     /// `self other`.
-    #[must_use]
     pub fn times(self, other: Self) -> Self {
         Self::Times(Box::new([self, other]))
     }
 
     /// `self^T other`.
-    #[must_use]
     pub fn transposed_times(self, other: Self) -> Self {
         Self::TransposedTimes(Box::new([self, other]))
     }
 
     /// `self^T`.
-    #[must_use]
     pub fn transposed(self) -> Self {
         Self::Transpose(Box::new(self))
     }
 
     /// `self - other`.
-    #[must_use]
     pub fn minus(self, other: Self) -> Self {
         Self::Minus(Box::new([self, other]))
     }
 
     /// `self + other`.
-    #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self::Plus(Box::new([self, other]))
     }
 
     /// A function of it.
-    #[must_use]
     pub fn under(self, function: MatrixFunction) -> Self {
         Self::Applied(function, vec![self])
     }
@@ -281,7 +274,6 @@ impl Tensor {
 
 impl Statement {
     /// What is bound.
-    #[must_use]
     pub fn value(&self) -> Option<&Tensor> {
         match self {
             Self::Named(_, value)
@@ -302,7 +294,6 @@ impl Constant {
     }
 
     /// One that is something else at the start.
-    #[must_use]
     pub fn starting(self, value: Tensor) -> Self {
         Self { start: Some(value), ..self }
     }

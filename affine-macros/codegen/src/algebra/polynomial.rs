@@ -4,6 +4,7 @@
 //! equal as functions of independent atoms exactly when they are equal as values.
 
 use std::cmp::Ordering;
+use std::iter::Sum;
 
 use super::arena::{Arena, Expr, Node};
 use super::fault::never_missing;
@@ -19,6 +20,7 @@ pub type Monomial = Vec<Expr>;
 
 /// A polynomial in atoms with rational coefficients; no zero coefficient is stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[must_use]
 pub struct Polynomial {
     /// In canonical order. A list and no tree, since the macro runs unoptimised in its users' builds, where a tree of few
     /// terms costs several times as much.
@@ -27,29 +29,36 @@ pub struct Polynomial {
 
 impl Polynomial {
     /// The polynomial without terms, 0.
-    #[must_use]
     pub fn zero() -> Self {
         Self::default()
     }
 
     /// The constant polynomial of a number.
-    #[must_use]
     pub fn constant(value: Rational) -> Self {
         Self::term(Vec::new(), value)
     }
 
     /// The polynomial of a single atom.
-    #[must_use]
     pub fn atom(atom: Expr) -> Self {
         Self::term(vec![atom], Rational::ONE)
     }
 
     /// `coefficient * monomial`; the monomial is sorted.
-    #[must_use]
     pub fn term(monomial: Monomial, coefficient: Rational) -> Self {
         let mut result = Self::zero();
         result.add_term(monomial, &coefficient);
         result
+    }
+
+    /// The product of some atoms.
+    pub fn monomial(atoms: impl Into<Monomial>) -> Self {
+        Self::term(atoms.into(), Rational::ONE)
+    }
+
+    /// The normal form of `1/expr`; `None` of the number zero.
+    pub fn reciprocal(arena: &mut Arena, expr: Expr) -> Option<Self> {
+        let reciprocal = arena.pow(expr, -1)?;
+        Some(Self::normal_form(arena, reciprocal))
     }
 
     /// The normal form of an expression.
@@ -115,13 +124,11 @@ impl Polynomial {
     }
 
     /// No terms?
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
     /// The number it is, if it is one.
-    #[must_use]
     pub fn as_constant(&self) -> Option<Rational> {
         match self.terms.as_slice() {
             [] => Some(Rational::ZERO),
@@ -220,15 +227,32 @@ impl Polynomial {
     }
 
     /// `self * other`.
-    #[must_use]
     pub fn mul(&self, other: &Self) -> Self {
         let mut result = Self::zero();
         result.add_product(self, other, &Rational::ONE);
         result
     }
 
+    /// `self + other`.
+    pub fn add(&self, other: &Self) -> Self {
+        let mut result = self.clone();
+        result.add_scaled(other, &Rational::ONE);
+        result
+    }
+
+    /// `self - other`.
+    pub fn sub(&self, other: &Self) -> Self {
+        let mut result = self.clone();
+        result.add_scaled(other, &Rational::MINUS_ONE);
+        result
+    }
+
+    /// `-self`.
+    pub fn neg(&self) -> Self {
+        self.scaled(&Rational::MINUS_ONE)
+    }
+
     /// `weight * self`.
-    #[must_use]
     pub fn scaled(&self, weight: &Rational) -> Self {
         let mut result = Self::zero();
         result.add_scaled(self, weight);
@@ -236,13 +260,11 @@ impl Polynomial {
     }
 
     /// Derivative with respect to an atom.
-    #[must_use]
     pub fn derivative(&self, atom: Expr) -> Self {
         never_missing(self.gradient(&[atom]).pop(), "one atom has one derivative", Self::zero())
     }
 
     /// Derivatives with respect to several atoms, in one pass.
-    #[must_use]
     pub fn gradient(&self, atoms: &[Expr]) -> Vec<Self> {
         let mut slopes = vec![Self::zero(); atoms.len()];
         for (monomial, c) in &self.terms {
@@ -263,7 +285,6 @@ impl Polynomial {
     }
 
     /// Replaces atoms by polynomials.
-    #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
         let mut result = Self::zero();
         for (monomial, c) in &self.terms {
@@ -296,6 +317,28 @@ impl Polynomial {
     /// Does any term contain an atom for which `wanted` holds?
     pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
         self.atoms().any(|atom| wanted(*atom))
+    }
+}
+
+impl Sum for Polynomial {
+    fn sum<I: Iterator<Item = Self>>(summands: I) -> Self {
+        let mut sum = Self::zero();
+        for summand in summands {
+            match () {
+                () if sum.is_zero() => sum = summand,
+                () if summand.terms.len() < COLLECTED => {
+                    summand.terms.into_iter().for_each(|(monomial, c)| sum.add_term(monomial, &c));
+                }
+                () => sum.collect(summand.terms),
+            }
+        }
+        sum
+    }
+}
+
+impl<'a> Sum<&'a Polynomial> for Polynomial {
+    fn sum<I: Iterator<Item = &'a Self>>(summands: I) -> Self {
+        summands.cloned().sum()
     }
 }
 

@@ -22,7 +22,7 @@ pub fn share_products(arena: &mut Arena, polynomials: &mut [Polynomial]) -> Vec<
     }
     while let Some((left, right)) = most_shared(polynomials) {
         let symbol = arena.symbol(Quantity::SharedProduct.at([shared.len() + 1]));
-        let product = Polynomial::term(vec![left, right], Rational::ONE);
+        let product = Polynomial::monomial([left, right]);
         for polynomial in polynomials.iter_mut() {
             let mut replaced = Polynomial::zero();
             for (monomial, c) in polynomial.terms() {

@@ -41,27 +41,23 @@ impl Rational {
     pub const QUARTER: Self = Self(Repr::Small(1, 4));
 
     /// The number of so many things.
-    #[must_use]
     pub fn whole(count: usize) -> Self {
         i64::try_from(count)
             .map_or_else(|_| Self::shrink(BigRational::from_integer(count.into())), Self::from)
     }
 
     /// `1 / count`, of a count that is not zero.
-    #[must_use]
     #[track_caller]
     pub fn one_over(count: usize) -> Self {
         never_missing(Self::whole(count).recip(), "what is divided by counts something", Self::ZERO)
     }
 
     /// `numerator / denominator`; `None` for a zero denominator.
-    #[must_use]
     pub fn ratio(numerator: i64, denominator: i64) -> Option<Self> {
         (denominator != 0).then(|| Self::lowest(i128::from(numerator), i128::from(denominator)))
     }
 
     /// The number a decimal literal denotes, exactly: `12`, `0.2`, `1e-3`, `1_000.5`.
-    #[must_use]
     pub fn parse_decimal(literal: &str) -> Option<Self> {
         let text: String = literal.chars().filter(|c| *c != '_').collect();
         let (mantissa, exponent) = match text.find(['e', 'E']) {
@@ -83,7 +79,6 @@ impl Rational {
     }
 
     /// Reciprocal; `None` for zero.
-    #[must_use]
     pub fn recip(&self) -> Option<Self> {
         if self.is_zero() {
             return None;
@@ -95,13 +90,11 @@ impl Rational {
     }
 
     /// `self / other`; `None` for a zero divisor.
-    #[must_use]
     pub fn checked_div(&self, other: &Self) -> Option<Self> {
         Some(self * &other.recip()?)
     }
 
     /// Integer power; `None` for a negative power of zero.
-    #[must_use]
     pub fn pow(&self, exponent: i32) -> Option<Self> {
         let base = if exponent < 0 { self.recip()? } else { self.clone() };
         let mut result = Self::ONE;
@@ -115,19 +108,16 @@ impl Rational {
     }
 
     /// Zero?
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         matches!(self.0, Repr::Small(0, _))
     }
 
     /// One?
-    #[must_use]
     pub fn is_one(&self) -> bool {
         matches!(self.0, Repr::Small(1, 1))
     }
 
     /// Less than zero?
-    #[must_use]
     pub fn is_negative(&self) -> bool {
         match &self.0 {
             Repr::Small(n, _) => *n < 0,
@@ -136,7 +126,6 @@ impl Rational {
     }
 
     /// Whole number?
-    #[must_use]
     pub fn is_integer(&self) -> bool {
         match &self.0 {
             Repr::Small(_, d) => *d == 1,
@@ -145,7 +134,6 @@ impl Rational {
     }
 
     /// The whole number as a machine word, if it is one.
-    #[must_use]
     pub fn to_i64(&self) -> Option<i64> {
         match &self.0 {
             Repr::Small(n, 1) => Some(*n),
@@ -154,25 +142,21 @@ impl Rational {
     }
 
     /// Absolute value.
-    #[must_use]
     pub fn abs(&self) -> Self {
         if self.is_negative() { -self } else { self.clone() }
     }
 
     /// `numerator / denominator`; `None` for a zero denominator.
-    #[must_use]
     pub fn quotient(numerator: BigInt, denominator: BigInt) -> Option<Self> {
         (!denominator.is_zero()).then(|| Self::shrink(BigRational::new(numerator, denominator)))
     }
 
     /// Numerator and positive denominator in lowest terms.
-    #[must_use]
     pub fn parts(&self) -> (BigInt, BigInt) {
         self.to_big().into_raw()
     }
 
     /// Residues of numerator and denominator, `0 <= r < modulus`.
-    #[must_use]
     pub fn residues(&self, modulus: u64) -> (u64, u64) {
         match &self.0 {
             Repr::Small(n, d) => {
@@ -219,7 +203,6 @@ impl Rational {
 }
 
 /// An exponent that is a count: a dimension, or how often a factor stands in a product.
-#[must_use]
 #[track_caller]
 pub fn exponent(count: usize) -> i32 {
     never_missing(i32::try_from(count).ok(), "no product has 2^31 factors", 0)

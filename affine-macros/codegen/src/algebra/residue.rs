@@ -10,6 +10,7 @@ use crate::symbol::Symbol;
 
 /// A residue modulo the Mersenne prime `2^61 - 1`; none for fractions whose denominator it divides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Residue(Option<u64>);
 
 impl Residue {
@@ -24,7 +25,6 @@ impl Residue {
 
     /// A value for an indeterminate that depends on its name alone: FNV-1a, and the last steps of SplitMix64 (Steele et al.,
     /// OOPSLA 2014), without which names that differ in the last letter alone have values in arithmetic progression.
-    #[must_use]
     pub fn sample(name: &str) -> Self {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         for byte in name.bytes() {
@@ -37,7 +37,6 @@ impl Residue {
 
     /// The fraction that it stands for, numerator and denominator at most [`SMALL`](Self::SMALL) (Wang, Proc. SYMSAC 1981,
     /// 212); `None` where no such fraction does. Of all residues one in 2^30 stands for one.
-    #[must_use]
     pub fn small_fraction(self) -> Option<(i64, i64)> {
         let modulus = i64::try_from(Self::MODULUS).ok()?;
         let (mut before, mut above) = (modulus, i64::try_from(self.0?).ok()?);
@@ -51,14 +50,12 @@ impl Residue {
     }
 
     /// Proved to be different from zero?
-    #[must_use]
     pub fn is_nonzero(self) -> bool {
         self.0.is_some_and(|value| value != 0)
     }
 }
 
 /// Is the expression zero whatever its symbols are, by its values at two points? Not where it has none.
-#[must_use]
 pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
     POINTS
         .iter()
@@ -66,7 +63,6 @@ pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
 }
 
 /// Does the value of the expression change with the symbols that are not `kept`, at two points? Also where it has none.
-#[must_use]
 pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&Symbol) -> Option<Residue>) -> bool {
     let value = |point: &str| {
         at(arena, expr, &|symbol| {

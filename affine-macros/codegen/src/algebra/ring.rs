@@ -63,48 +63,55 @@ impl Ring for Residue {
 pub type Square<R> = Vec<Vec<R>>;
 
 /// The matrix with the given entries.
-pub fn table<R>(n: usize, entry: impl Fn(usize, usize) -> R) -> Square<R> {
+pub fn table<R>(n: usize, mut entry: impl FnMut(usize, usize) -> R) -> Square<R> {
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
+/// All places of a square matrix, row after row.
+pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+}
+
+/// The places on and above its diagonal.
+pub fn upper(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (a..n).map(move |b| (a, b)))
+}
+
+/// The places above its diagonal.
+pub fn above_diagonal(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
+    (0..n).flat_map(move |a| (a + 1..n).map(move |b| (a, b)))
+}
+
+/// The sum of products `a b`.
+pub fn dot<'r, R: Ring + 'r>(factors: impl IntoIterator<Item = (&'r R, &'r R)>) -> R {
+    let mut sum = R::zero();
+    factors.into_iter().for_each(|(a, b)| sum.plus_product(a, b, &Rational::ONE));
+    sum
+}
+
 /// `a b`.
-#[must_use]
 pub fn product<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut sum = R::zero();
-        for k in 0..a.len() {
-            sum.plus_product(&a[i][k], &b[k][j], &Rational::ONE);
-        }
-        sum
-    })
+    table(a.len(), |i, j| dot(a[i].iter().zip(b.iter().map(|row| &row[j]))))
 }
 
 /// `a + b`.
-#[must_use]
 pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut value = a[i][j].clone();
-        value.plus(&b[i][j], &Rational::ONE);
-        value
-    })
+    table(a.len(), |i, j| combined(&a[i][j], &b[i][j], &Rational::ONE))
+}
+
+/// `a + weight b`.
+fn combined<R: Ring>(a: &R, b: &R, weight: &Rational) -> R {
+    let mut value = a.clone();
+    value.plus(b, weight);
+    value
 }
 
 /// Entries above the diagonal of `m - m^T`.
-#[must_use]
 pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
-    let n = m.len();
-    (0..n)
-        .flat_map(|a| (a + 1..n).map(move |b| (a, b)))
-        .map(|(a, b)| {
-            let mut value = m[a][b].clone();
-            value.plus(&m[b][a], &Rational::MINUS_ONE);
-            value
-        })
-        .collect()
+    above_diagonal(m.len()).map(|(a, b)| combined(&m[a][b], &m[b][a], &Rational::MINUS_ONE)).collect()
 }
 
 /// `m - (tr m / n) 1`.
-#[must_use]
 pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
     let mut trace = R::zero();
     (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
@@ -119,7 +126,6 @@ pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
 }
 
 /// The transposed cofactors: `m adjugate(m) = det m`.
-#[must_use]
 pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
     let n = m.len();
     table(n, |i, j| {
@@ -139,40 +145,48 @@ pub fn adjugate<R: Ring>(m: &Square<R>) -> Square<R> {
     })
 }
 
+/// The determinant, expanded along the first row.
+pub fn determinant<R: Ring>(m: &Square<R>) -> R {
+    dot(m[0].iter().zip(adjugate(m).iter().map(|row| &row[0])))
+}
+
+/// The rows that a symmetric matrix connects by entries other than zero.
+pub fn components<R: Ring>(matrix: &Square<R>) -> Vec<Vec<usize>> {
+    let size = matrix.len();
+    let mut component: Vec<usize> = (0..size).collect();
+    for (j, i) in above_diagonal(size).filter(|(j, i)| !matrix[*i][*j].vanishes()) {
+        let (keep, drop) = (component[i].min(component[j]), component[i].max(component[j]));
+        component.iter_mut().filter(|c| **c == drop).for_each(|c| *c = keep);
+    }
+    let members = (0..size).map(|root| (0..size).filter(|i| component[*i] == root).collect::<Vec<_>>());
+    members.filter(|members| !members.is_empty()).collect()
+}
+
+/// The bilinear form of a matrix at two vectors, which are given by their entries other than zero.
+pub fn pairing<R: Ring>(matrix: &Square<R>, a: &[(usize, Rational)], b: &[(usize, Rational)]) -> R {
+    let mut sum = R::zero();
+    for (k, wk) in a {
+        b.iter().for_each(|(l, wl)| sum.plus(&matrix[*k][*l], &(wk * wl)));
+    }
+    sum
+}
+
 /// `a - b`.
-#[must_use]
 pub fn difference<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut value = a[i][j].clone();
-        value.plus(&b[i][j], &Rational::MINUS_ONE);
-        value
-    })
+    table(a.len(), |i, j| combined(&a[i][j], &b[i][j], &Rational::MINUS_ONE))
 }
 
 /// The transpose.
-#[must_use]
 pub fn transpose<R: Ring>(a: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| a[j][i].clone())
 }
 
 /// `a v`.
-#[must_use]
 pub fn times<R: Ring>(a: &Square<R>, v: &[R]) -> Vec<R> {
-    a.iter()
-        .map(|row| {
-            let mut sum = R::zero();
-            row.iter().zip(v).for_each(|(x, y)| sum.plus_product(x, y, &Rational::ONE));
-            sum
-        })
-        .collect()
+    a.iter().map(|row| dot(row.iter().zip(v))).collect()
 }
 
 /// `a b^T`.
-#[must_use]
 pub fn outer<R: Ring>(a: &[R], b: &[R]) -> Square<R> {
-    table(a.len(), |i, j| {
-        let mut value = R::zero();
-        value.plus_product(&a[i], &b[j], &Rational::ONE);
-        value
-    })
+    table(a.len(), |i, j| dot([(&a[i], &b[j])]))
 }

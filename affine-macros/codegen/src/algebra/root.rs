@@ -9,7 +9,6 @@ const BITS: u64 = 160;
 
 /// The square root of a positive number: exact for squares, otherwise from below with a relative error under `2^-159`.
 /// `None` for other numbers.
-#[must_use]
 pub fn root(value: &Rational) -> Option<Rational> {
     if value.is_negative() || value.is_zero() {
         return None;

@@ -44,14 +44,12 @@ impl Span {
     }
 
     /// How many of the vectors that were taken in do not follow from others.
-    #[must_use]
     pub fn dimension(&self) -> usize {
         self.0.len()
     }
 
     /// A basis of the vectors of `length` entries whose scalar products with the span vanish: a unit vector for each place
     /// where all of the span is zero.
-    #[must_use]
     pub fn annihilators(&self, length: usize) -> Vec<Vec<Residue>> {
         let is_free = |place: &usize| self.0.iter().all(|(leading, _)| leading != place);
         let annihilator = |free: usize| {
@@ -79,7 +77,6 @@ fn subtract(vector: &mut [Residue], leading: usize, row: &[Residue]) {
 }
 
 /// The vector of small whole numbers without a common factor that a vector is a multiple of; `None` where none is found.
-#[must_use]
 pub fn whole_multiple(vector: &[Residue]) -> Option<Vec<i64>> {
     let mut common = 1_i64;
     let mut fractions = Vec::with_capacity(vector.len());

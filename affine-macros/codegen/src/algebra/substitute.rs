@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
-use super::rational::Rational;
+
 use crate::symbol::Symbol;
 
 impl Arena {
@@ -23,34 +23,15 @@ impl Arena {
         if let Some(known) = known.get(&expr) {
             return Some(*known);
         }
-        let found = match self.node(expr).clone() {
-            Node::Constant(_) => return Some(expr),
-            Node::Symbol(_) => return Some(value(expr).unwrap_or(expr)),
-            Node::Sum(constant, terms) => {
-                let mut summands = vec![(self.constant(constant), Rational::ONE)];
-                for (term, c) in terms {
-                    summands.push((self.substituted(term, value, known)?, c));
-                }
-                self.linear(&summands)
-            }
-            Node::Product(factors) => {
-                let mut product = Vec::with_capacity(factors.len());
-                for (base, exponent) in factors {
-                    product.push((self.substituted(base, value, known)?, exponent));
-                }
-                self.product(&product)?
-            }
-            Node::Function(function, argument) => {
-                let argument = self.substituted(argument, value, known)?;
-                self.apply(function, argument)
-            }
-        };
+        if let Node::Symbol(_) = self.node(expr) {
+            return Some(value(expr).unwrap_or(expr));
+        }
+        let found = self.with_parts(expr, &mut |arena, part| arena.substituted(part, value, known))?;
         known.insert(expr, found);
         Some(found)
     }
 
     /// Is the value `>= 0` for all symbols, those of `positive` being so; and is it never zero?
-    #[must_use]
     pub fn sign(&self, expr: Expr, positive: &dyn Fn(&Symbol) -> bool) -> Option<Sign> {
         match self.node(expr) {
             Node::Constant(value) if value.is_zero() => None,

@@ -27,19 +27,16 @@ pub enum Shape {
 
 impl Written {
     /// A symbol that never takes brackets: a letter, with an index or without.
-    #[must_use]
     pub fn letter(body: impl Into<String>) -> Self {
         Self { body: body.into(), shape: Shape::Letter }
     }
 
     /// What has a superscript.
-    #[must_use]
     pub fn raised(body: impl Into<String>) -> Self {
         Self { body: body.into(), shape: Shape::Raised }
     }
 
     /// Can it stand as a factor with this exponent, `alone` or not, without brackets?
-    #[must_use]
     pub fn is_bare(&self, exponent: u32, alone: bool) -> bool {
         match self.shape {
             Shape::Letter => true,
@@ -51,7 +48,6 @@ impl Written {
 
 impl Arena {
     /// The expression as text in the notation of specifications: `2*a + b^2/3`.
-    #[must_use]
     pub fn text(&self, expr: Expr) -> String {
         self.text_with(expr, &|symbol| Written::letter(self.symbol_name(symbol)))
     }
@@ -133,7 +129,6 @@ impl Arena {
 }
 
 /// The sign in front of a summand, of which it may be the first.
-#[must_use]
 pub fn sign(negative: bool, first: bool) -> &'static str {
     match (negative, first) {
         (true, true) => "-",

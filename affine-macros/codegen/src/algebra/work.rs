@@ -12,7 +12,6 @@ pub(super) fn add(products: usize) {
 }
 
 /// Products of terms of polynomials that this thread has formed so far.
-#[must_use]
 pub fn products() -> u64 {
     PRODUCTS.get()
 }

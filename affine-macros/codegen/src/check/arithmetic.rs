@@ -60,7 +60,7 @@ fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnosti
         expression.operands().into_iter().map(|operand| degree(operand, place, n, found)).collect();
     let degrees: Vec<u64> = degrees.into_iter().collect::<Result<_, _>>()?;
     let degree = match &expression.kind {
-        ExpressionKind::Power(base, exponent) => {
+        ExpressionKind::Binary(Operator::Power, base, exponent) => {
             let power = exponent_is_integer(base, exponent, place, n, found)?;
             let base_degree = never_missing(degrees.first().copied(), "a power has a base", 1);
             if power < 0 {
@@ -68,12 +68,12 @@ fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnosti
             }
             base_degree * u64::from(power.unsigned_abs())
         }
-        ExpressionKind::Divide(_, divisor) => {
+        ExpressionKind::Binary(Operator::Divide, _, divisor) => {
             let of_divisor = never_missing(degrees.last().copied(), "a quotient has a divisor", 1);
             divisor_is_not_zero(divisor, of_divisor, n, found)?;
             degrees.iter().sum()
         }
-        ExpressionKind::Multiply(..) => degrees.iter().sum(),
+        ExpressionKind::Binary(Operator::Multiply, ..) => degrees.iter().sum(),
         ExpressionKind::Trace(factors) => u64::try_from(factors.len()).unwrap_or(u64::MAX),
         // A quotient of two invariants.
         ExpressionKind::InverseTrace(_) => 2,

@@ -1,10 +1,10 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
-use super::{capabilities, definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
+use super::{definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower::{self, PotentialEnergy};
-use crate::mechanics::asked::Asked;
+
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::{Form, Mass, Positive};
@@ -75,7 +75,7 @@ pub(super) fn beside(
         forces,
         metrics,
         rebased,
-        asked: Asked { two_polar, ..capabilities::asked_for(spec) },
+        asked: spec.asked().with(Capability::TwoPolar, two_polar),
         unitary,
         arena,
     })
@@ -192,8 +192,8 @@ pub(super) fn forces(
 /// Has the motion a place for the work of a potential that depends on the time, `dH/dt = dU/dt` at rest? The halves of
 /// equations of second order have none, and the kicks of pieces only beside the work of forces, which stands in one sum with it.
 fn accounts(spec: &Spec, forces: &Forces) -> bool {
-    let asked = |capability| capabilities::asked(spec, capability);
-    !asked(Capability::Nystrom) && (!asked(Capability::Splitting) || forces.do_work())
+    let asked = spec.asked();
+    !asked.has(Capability::Nystrom) && (!asked.has(Capability::Splitting) || forces.do_work())
 }
 
 /// The energy of a motion that may be confined to a group, with the places of its terms; `None` without a common frame,

@@ -56,7 +56,6 @@ pub enum Part {
 
 impl Part {
     /// What it is called, as the end of a sentence.
-    #[must_use]
     pub fn name(self) -> String {
         match self {
             Self::Confined => "a constraint",

@@ -4,7 +4,7 @@ use super::potential::parts;
 use crate::algebra::Function;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::lower::integer;
-use crate::spec::{Expression, ExpressionKind, MatrixName, more_factors, numbered};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator, more_factors, numbered};
 
 /// Polynomials are derived, factored and scheduled in a time that grows faster than their number of summands; energies have
 /// tens of them. A power of a sum has `(m + k - 1) over k`, and one of degree 16 in seven variables 74613.
@@ -90,13 +90,13 @@ fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result
         .map(|operand| counted(operand, n, found))
         .collect::<Result<_, _>>()?;
     let count = match (&expression.kind, counts.as_slice()) {
-        (ExpressionKind::Add(..) | ExpressionKind::Subtract(..), [left, right]) => {
+        (ExpressionKind::Binary(Operator::Add | Operator::Subtract, ..), [left, right]) => {
             Summands { above: left.above.saturating_add(right.above), ..ONE }
         }
-        (ExpressionKind::Multiply(..), [left, right]) => left.times(*right),
-        (ExpressionKind::Divide(..), [left, right]) => left.times(right.inverse()),
+        (ExpressionKind::Binary(Operator::Multiply, ..), [left, right]) => left.times(*right),
+        (ExpressionKind::Binary(Operator::Divide, ..), [left, right]) => left.times(right.inverse()),
         (ExpressionKind::Negate(_), [of]) => *of,
-        (ExpressionKind::Power(_, exponent), [base, ..]) => {
+        (ExpressionKind::Binary(Operator::Power, _, exponent), [base, ..]) => {
             integer(exponent, n).map_or(ONE, |exponent| base.power(exponent))
         }
         (ExpressionKind::Call(function, argument), [of]) => of.applied(*function, argument),

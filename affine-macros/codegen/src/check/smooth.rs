@@ -6,13 +6,14 @@
 
 use super::potential::{energy, parts};
 use crate::algebra::arena::Node;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::lower;
 use crate::mechanics::potential::stretches::{
     canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
 };
-use crate::spec::{Expression, ExpressionKind, Spec};
+use crate::spec::{Expression, ExpressionKind, Operator, Spec};
 use crate::symbol::Quantity;
 
 /// Every rule; a potential that breaks one of symmetry is not asked for more.
@@ -91,7 +92,7 @@ fn symmetric(
     value: Expr,
     found: &mut Diagnostics,
 ) -> bool {
-    for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+    for (a, b) in above_diagonal(n) {
         let other = exchanged(arena, n, value, a, b).map(|other| canonical(arena, n, other));
         if other != Some(value) {
             let energy = written.to_string();
@@ -107,11 +108,8 @@ fn absolute_value(arena: &Arena, value: Expr) -> Option<Expr> {
     let mut pending = vec![value];
     while let Some(expr) = pending.pop() {
         match arena.node(expr) {
-            Node::Constant(_) | Node::Symbol(_) => {}
-            Node::Sum(_, terms) => pending.extend(terms.iter().map(|(term, _)| *term)),
-            Node::Product(factors) => pending.extend(factors.iter().map(|(base, _)| *base)),
             Node::Function(Function::Abs, argument) if moves(arena, *argument) => return Some(*argument),
-            Node::Function(_, argument) => pending.push(*argument),
+            _ => pending.extend(arena.parts(expr)),
         }
     }
     None
@@ -156,18 +154,18 @@ fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Opti
         }
         ExpressionKind::Call(Function::Abs, _) => return list,
         ExpressionKind::Call(Function::Sqrt | Function::Ln, argument)
-        | ExpressionKind::Divide(_, argument)
-        | ExpressionKind::Power(argument, _) => argument,
+        | ExpressionKind::Binary(Operator::Divide, _, argument)
+        | ExpressionKind::Binary(Operator::Power, argument, _) => argument,
         _ => return list,
     };
     let singular_power = match &part.kind {
-        ExpressionKind::Power(_, exponent) => {
+        ExpressionKind::Binary(Operator::Power, _, exponent) => {
             crate::lower::constant(exponent, n).is_some_and(|k| k.is_negative())
         }
         _ => true,
     };
     if let Some(value) = lower::energy(arena, n, vanishing, difference).filter(|_| singular_power) {
-        let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+        let pairs = above_diagonal(n);
         let found = pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, value, *a, *b));
         if let Some((a, b)) = found {
             list.push(Kink::Coincidence(part, vanishing, (a + 1, b + 1)));

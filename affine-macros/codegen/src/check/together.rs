@@ -151,7 +151,6 @@ pub fn refusals() -> impl Iterator<Item = Refusal> {
 }
 
 /// The table in Markdown, a row for each reason.
-#[must_use]
 pub fn table() -> String {
     let names = |parts: &[Part]| parts.iter().map(|part| part.name()).collect::<Vec<_>>().join(", ");
     let row = |Row(parts, others, why): &Row| format!("| {} | {} | {why} |\n", names(parts), names(others));

@@ -1,11 +1,31 @@
 //! What is computed together: the rates of a system, and what a closed form reads.
 
+use crate::algebra::bind::Constants;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::ir::Program;
+use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::equations::System;
 use crate::mechanics::separation::{Separation, Slope};
-use crate::optimise::Batch;
-use crate::symbol::{Aspect, Quantity};
+use crate::optimise::{Batch, straight_line};
+use crate::symbol::{Aspect, Quantity, Symbol};
+
+/// The program of a batch over some inputs; what else it reads joins the coefficients.
+pub(super) fn program(
+    arena: &mut Arena,
+    batch: &Batch,
+    coefficients: &mut Constants,
+    inputs: &[Expr],
+) -> Program {
+    fuse(&straight_line(arena, batch, coefficients, &|atom| inputs.contains(&atom)))
+}
+
+/// The program of results that have no coefficients, whatever they read.
+pub(super) fn unbound(arena: &mut Arena, results: Vec<(Symbol, Polynomial)>) -> Program {
+    let batch = Batch { results, ..Batch::default() };
+    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
+}
 
 /// The rates, and the power where the work is part of the motion.
 pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
@@ -26,19 +46,15 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
     let mut replaced: Vec<(Expr, Polynomial)> = Vec::new();
     let mut shared: Vec<(Expr, Polynomial)> = Vec::new();
     let half = Rational::HALF;
-    for (a, b) in (0..chart.dim).flat_map(|a| (a + 1..chart.dim).map(move |b| (a, b))) {
+    for (a, b) in above_diagonal(chart.dim) {
         let (upper, lower) = (chart.m.0[a][b], chart.m.0[b][a]);
         let [symmetric, skew] = [Aspect::Symmetric, Aspect::Skew].map(|aspect| arena.about(aspect, upper));
         // s = (M_ab + M_ba)/2, w = M_ab - M_ba, so M_ab = s + w/2 and M_ba = s - w/2.
-        let combined = |x: Expr, y: Expr, weight: &Rational| {
-            let mut sum = Polynomial::atom(x);
-            sum.add_term(vec![y], weight);
-            sum
-        };
-        replaced.push((upper, combined(symmetric, skew, &half)));
-        replaced.push((lower, combined(symmetric, skew, &-&half)));
-        shared.push((symmetric, combined(upper, lower, &Rational::ONE).scaled(&half)));
-        shared.push((skew, combined(upper, lower, &Rational::MINUS_ONE)));
+        let [entries, parts] = [[upper, lower], [symmetric, skew]].map(|pair| pair.map(Polynomial::atom));
+        let half_skew = parts[1].scaled(&half);
+        replaced.extend([(upper, parts[0].add(&half_skew)), (lower, parts[0].sub(&half_skew))]);
+        let mean = entries[0].add(&entries[1]).scaled(&half);
+        shared.extend([(symmetric, mean), (skew, entries[0].sub(&entries[1]))]);
     }
     let value =
         |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());

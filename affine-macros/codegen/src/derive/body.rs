@@ -1,7 +1,6 @@
 //! What a motion conserves, and how it is reduced.
 
 use crate::algebra::Arena;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::closed_form::ClosedForm;
@@ -14,6 +13,7 @@ use crate::mechanics::reduction::drift::Drift;
 use crate::mechanics::reduction::{Reduction, Wanted, reductions};
 use crate::mechanics::shared::CentreVelocity;
 use crate::mechanics::term::Frame;
+use crate::symbol::{Asked, Capability};
 
 /// What a motion conserves.
 pub(super) struct Kept {
@@ -83,8 +83,8 @@ impl Body<'_> {
     ) -> Option<Vec<Reduction>> {
         // The squares of an anisotropic energy move each momentum, also one that their sum conserves.
         let in_squares = |h: &Hamiltonian| h.isotropic.is_none() && h.frame != Frame::Flat;
-        let halves = |h| asked.nystrom || (asked.splitting && in_squares(h));
-        let halves = self.motion.hamiltonian().is_some_and(halves);
-        reductions(arena, self, Wanted { rotations, halves, pieces: asked.nystrom || asked.splitting })
+        let [nystrom, splitting] = [Capability::Nystrom, Capability::Splitting].map(|one| asked.has(one));
+        let halves = self.motion.hamiltonian().is_some_and(|h| nystrom || (splitting && in_squares(h)));
+        reductions(arena, self, Wanted { rotations, halves, pieces: nystrom || splitting })
     }
 }

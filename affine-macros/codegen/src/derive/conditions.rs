@@ -2,7 +2,6 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
-use crate::ir::fuse::fuse;
 use crate::mechanics::direction::Direction;
 use crate::mechanics::form::Positive;
 use crate::mechanics::hessian::Hessian;
@@ -10,9 +9,10 @@ use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Factorisation;
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::{Coefficient, TermKind};
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
+use super::batch::program;
 use super::model::Regularity;
 use super::well_posed::{Condition, Factor, Relation};
 
@@ -117,7 +117,7 @@ pub(super) fn regularity(
             let values = block.upper.iter().chain(&sizes).enumerate();
             let results = values.map(|(k, p)| (Quantity::Value.at([k + 1]), p.clone())).collect();
             let batch = Batch { shared: shared.clone(), results, ..Batch::default() }.pruned(arena);
-            let program = fuse(&straight_line(arena, &batch, coefficients, &|a| phi.contains(&a)));
+            let program = program(arena, &batch, coefficients, &phi);
             blocks.extend(std::iter::repeat_n((program, block.size), count));
         }
     }

@@ -3,11 +3,12 @@
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::potential::{Bound, Guard, Potential};
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::Quantity;
+
+use super::batch::program;
 
 /// Where the potential has a value.
 pub struct Domain {
@@ -70,6 +71,6 @@ pub(super) fn domain(
     let (values, shared) = potential.domain_at_a_point(arena, chart)?;
     let names = (1..).map(|k| Quantity::Guard.at([k]));
     let batch = Batch { shared, results: names.zip(values).collect(), ..Batch::default() };
-    let program = fuse(&straight_line(arena, &batch, coefficients, &|atom| inputs.contains(&atom)));
+    let program = program(arena, &batch, coefficients, inputs);
     Some(Domain { guards: potential.domain().to_vec(), program })
 }

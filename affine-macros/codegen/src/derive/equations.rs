@@ -16,25 +16,21 @@ pub struct Equations {
 
 impl Equations {
     /// Is a quantity a group of the array?
-    #[must_use]
     pub fn has(&self, quantity: Quantity) -> bool {
         self.groups.iter().any(|(group, _)| *group == quantity)
     }
 
     /// The components of the groups, without what these are.
-    #[must_use]
     pub fn components(&self) -> Vec<Vec<Symbol>> {
         self.groups.iter().map(|(_, names)| names.clone()).collect()
     }
 
     /// The components of the array.
-    #[must_use]
     pub fn symbols(&self) -> Vec<Symbol> {
         self.groups.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
     /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`?
-    #[must_use]
     pub fn is_second_order(&self) -> bool {
         let (positions, momenta) = (
             self.of(&[Quantity::Position, Quantity::Placement]),

@@ -5,7 +5,6 @@ use crate::mechanics::symmetry::Group;
 
 impl Model {
     /// The groups that leave the kinetic energy unchanged, in space and in the body.
-    #[must_use]
     pub fn invariance(&self) -> [String; 2] {
         let n = self.dim;
         [self.description.groups.0, self.description.groups.1].map(|group| match group {
@@ -16,7 +15,6 @@ impl Model {
     }
 
     /// The group that the motion is confined to, and what of these acts on it in space and in the body.
-    #[must_use]
     pub fn confinement(&self) -> Option<(String, [String; 2])> {
         let (n, constraint) = (self.dim, self.constraint?);
         let surviving = [self.description.groups.0, self.description.groups.1].map(|group| match group {

@@ -9,14 +9,12 @@ pub use ratios::RatioProgram;
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::{OnAxes, Potential};
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
-use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Aspect, Quantity, Symbol};
+use crate::optimise::Batch;
+use crate::symbol::{Asked, Aspect, Capability, Quantity, Symbol};
 
 /// The two-polar form of a doubly isotropic model.
 pub struct TwoPolar {
@@ -106,17 +104,16 @@ pub(super) fn two_polar(
     };
     let frames = Frames::new(arena, lattice.dim);
     let inputs: Vec<Expr> = [&lattice.q[..], &lattice.p, &lattice.m, &lattice.n, &frames.symbols()].concat();
-    let mut program = |arena: &mut Arena, batch: &Batch| {
-        fuse(&straight_line(arena, batch, coefficients, &|a| inputs.contains(&a)))
-    };
+    let mut program =
+        |arena: &mut Arena, batch: &Batch| super::batch::program(arena, batch, coefficients, &inputs);
     let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
     let framed = framed(arena, &frames, &equations, &stable, rates.clone());
     let energy = energy(&equations, &stable, on_axes.as_ref());
-    let ratios = match asked.ratios {
+    let ratios = match asked.has(Capability::Ratios) {
         true => Ratios::of(arena, &lattice, h).map(|form| RatioProgram::of(arena, &form)),
         false => None,
     };
-    let pieces = match asked.splitting {
+    let pieces = match asked.has(Capability::Splitting) {
         true => Pieces::of(arena, &lattice, &frames, h, on_axes.as_ref()),
         false => None,
     };

@@ -7,7 +7,7 @@ use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 use crate::mechanics::term::Frame;
 
 use super::components::Components;
-use super::prepared::unbound;
+use super::prepared::values;
 
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
 pub enum ChangeOfBases {
@@ -84,5 +84,5 @@ impl GivenMatrix {
 
 fn entries(arena: &mut Arena, entries: &[Expr]) -> Program {
     let entries: Vec<Polynomial> = entries.iter().map(|e| Polynomial::normal_form(arena, *e)).collect();
-    unbound(arena, entries.into_iter())
+    values(arena, entries.into_iter())
 }

@@ -14,7 +14,6 @@ use crate::ir::fuse::fuse;
 use crate::ir::packed::Packed;
 use crate::ir::tangent::with_tangent;
 use crate::ir::taylor::Recurrence;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::closed_form::ClosedForm;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::Formula;
@@ -22,7 +21,7 @@ use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::left_out::LeftOut;
 use crate::mechanics::symmetry::Group;
 use crate::mechanics::term::Frame;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Asked, Capability, Quantity, Symbol};
 
 /// Everything that is emitted about a model.
 pub struct Model {
@@ -190,8 +189,8 @@ impl Model {
     pub(super) fn completed(mut self, asked: Asked) -> Self {
         let states = self.dynamics.reduced.symbols();
         let program = &self.dynamics.reduced.program;
-        self.methods.taylor = asked.taylor.then(|| Recurrence::of(program, &states));
-        self.methods.tangent = asked.tangent.then(|| {
+        self.methods.taylor = asked.has(Capability::Taylor).then(|| Recurrence::of(program, &states));
+        self.methods.tangent = asked.has(Capability::Tangent).then(|| {
             let changes =
                 |symbol: &Symbol| symbol.quantity() == Some(Quantity::Constant) || states.contains(symbol);
             Variational { program: program.calls.is_empty().then(|| fuse(&with_tangent(program, &changes))) }

@@ -87,7 +87,7 @@ impl Body<'_> {
 
     /// What functions of a point read.
     fn point(&self, arena: &mut Arena, chart: &Chart) -> Vec<Expr> {
-        let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+        let mut inputs = chart.symbols();
         if self.potential.is_some() {
             inputs.extend(placement_inputs(arena, chart.dim));
         }
@@ -98,8 +98,7 @@ impl Body<'_> {
     /// `1/m` where there is one mass, and `m` where momenta are determined by velocities.
     fn mass(&self, arena: &mut Arena) -> Option<Batch> {
         let mass = self.motion.masses.single()?;
-        let reciprocal = arena.pow(mass, -1)?;
-        let mut results = vec![(Quantity::InverseMass.into(), Polynomial::normal_form(arena, reciprocal))];
+        let mut results = vec![(Quantity::InverseMass.into(), Polynomial::reciprocal(arena, mass)?)];
         if self.motion.determines_momentum() {
             results.push((Quantity::Mass.into(), Polynomial::normal_form(arena, mass)));
         }
@@ -144,7 +143,7 @@ impl Body<'_> {
         } else if let Some(mass) = self.motion.masses.single() {
             let mass = Polynomial::normal_form(arena, mass);
             for v in v {
-                let square = Polynomial::term(vec![*v, *v], Rational::ONE);
+                let square = Polynomial::monomial([*v, *v]);
                 energy.results[0].1.add_product(&square, &mass, &Rational::HALF);
             }
         }

@@ -1,16 +1,16 @@
 //! What is computed when the fields have values: conditions, coefficients, inverse blocks.
 
 use crate::algebra::bind::Constants;
+use crate::algebra::ring::upper;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::direction::Direction;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Coefficient;
-use crate::optimise::{Batch, straight_line};
 use crate::symbol::Quantity;
 
+use super::batch::unbound;
 use super::well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
 
 /// What `prepare()` has to find not negative in the dissipation.
@@ -63,7 +63,7 @@ impl Condition {
         value: &Polynomial,
     ) -> Option<Self> {
         value.as_constant().is_none().then(|| {
-            let program = unbound(arena, std::iter::once(value.clone()).chain(summands(value)));
+            let program = values(arena, std::iter::once(value.clone()).chain(summands(value)));
             Self { factor, directions, relation, positive, program }
         })
     }
@@ -74,17 +74,14 @@ fn summands(sum: &Polynomial) -> Vec<Polynomial> {
     sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 
-/// A program over the fields alone.
-pub(super) fn unbound(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    let results = values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect();
-    let batch = Batch { results, ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
+/// The program of values over the fields alone.
+pub(super) fn values(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+    unbound(arena, values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect())
 }
 
 pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
     let results = coefficients.entries.iter().map(|(s, p)| (arena.symbol_of(*s), p.clone())).collect();
-    let batch = Batch { results, ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
+    unbound(arena, results)
 }
 
 /// The inverse blocks that only the fields' values give.
@@ -106,11 +103,6 @@ fn form_block(arena: &mut Arena, form: &[Vec<Polynomial>], positive: bool) -> Nu
     let size = form.len();
     let entries: Vec<Polynomial> = upper(size).map(|(i, j)| form[i][j].clone()).collect();
     let sizes: Vec<Polynomial> = entries.iter().flat_map(summands).collect();
-    let program = unbound(arena, entries.into_iter().chain(sizes));
+    let program = values(arena, entries.into_iter().chain(sizes));
     NumericBlock { program, inverse: Vec::new(), basis: Vec::new(), size, positive }
-}
-
-/// Places of an upper triangle, row after row.
-fn upper(size: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..size).flat_map(move |i| (i..size).map(move |j| (i, j)))
 }

@@ -4,7 +4,6 @@ use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -13,9 +12,9 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::carried::Carried;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Asked, Capability, Quantity, Symbol};
 
-use super::batch::{batch, split_batch};
+use super::batch::{batch, program as program_of, split_batch, unbound};
 use super::equations::Equations;
 use super::second_order::Halves;
 use super::splitting::Programs;
@@ -58,9 +57,9 @@ impl Body<'_> {
         let time = self.time(arena);
         let h = self.motion.hamiltonian();
         let pieces = |arena: &mut Arena, reduction: &Reduction, constants: &mut Constants| {
-            let split = h.filter(|_| asked.splitting);
+            let split = h.filter(|_| asked.has(Capability::Splitting));
             let split = split.and_then(|h| Programs::of(arena, (h, self), reduction, constants));
-            let halves = h.filter(|_| asked.nystrom);
+            let halves = h.filter(|_| asked.has(Capability::Nystrom));
             let second_order = halves.and_then(|h| Halves::of(arena, (h, self), reduction, constants));
             Pieces { splitting: split, second_order }
         };
@@ -76,7 +75,7 @@ fn shortest(
     time: Option<Expr>,
     coefficients: &mut Constants,
 ) -> Equations {
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs = chart.symbols();
     inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
     let symbols = |list: &[Expr]| -> Vec<Symbol> { list.iter().map(|s| arena.symbol_of(*s)).collect() };
@@ -121,9 +120,8 @@ fn independent_momenta(chart: &Chart) -> Vec<Expr> {
 /// Entries of the affine momentum that a constraint makes linear in others.
 fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
     let results = chart.dependent().into_iter();
-    let results = results.map(|(symbol, value)| (arena.symbol_of(symbol), value));
-    let batch = Batch { results: results.collect(), ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
+    let results = results.map(|(symbol, value)| (arena.symbol_of(symbol), value)).collect();
+    unbound(arena, results)
 }
 
 /// What is asked for beside the reduced equations, as programs over the same state.
@@ -153,7 +151,7 @@ fn shortest_reduction(
 ) -> Option<Reduced> {
     let mut built: Vec<(Reduction, Program, Constants)> = Vec::new();
     for candidate in candidates {
-        let mut states: Vec<Expr> = candidate.states.iter().flat_map(|(_, s)| s.clone()).collect();
+        let mut states = candidate.symbols();
         states.extend(time);
         let mut constants = Constants::new(Quantity::Constant);
         let way = batch(arena, &candidate.system);
@@ -180,7 +178,7 @@ fn shortest_reduction(
         {
             continue;
         }
-        let states: usize = reduction.states.iter().map(|(_, s)| s.len()).sum();
+        let states = reduction.symbols().len();
         let weight = program.operations().weight() + states + usize::from(time.is_some());
         if best.is_none_or(|(least, _)| weight < least) {
             best = Some((weight, k));
@@ -193,7 +191,7 @@ fn shortest_reduction(
         results: constants.entries.iter().map(|(s, p)| (arena.symbol_of(*s), p.clone())).collect(),
         ..Batch::default()
     };
-    let trajectory = fuse(&straight_line(arena, &definitions, coefficients, &|a| inputs.contains(&a)));
+    let trajectory = program_of(arena, &definitions, coefficients, &inputs);
     let symbol = |s: &Expr| arena.symbol_of(*s);
     let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
     let dependent = match reduction.conserved.affine {

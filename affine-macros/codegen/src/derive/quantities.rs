@@ -1,11 +1,9 @@
 //! Quantities that are emitted when asked for.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
-use crate::mechanics::asked::Asked;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -16,9 +14,10 @@ use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
-use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Aspect, Factorised, Quantity, Symbol};
+use crate::optimise::Batch;
+use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
+use super::batch::{self, program};
 use super::components::Components;
 
 /// Quantities that are emitted where they are asked for.
@@ -66,19 +65,19 @@ impl Body<'_> {
         asked: Asked,
         coefficients: &mut Constants,
     ) -> Option<Quantities> {
-        let metric = match asked.metric {
+        let metric = match asked.has(Capability::Metric) {
             true => Some(metric(arena, self.motion, coefficients)?),
             false => None,
         };
         let time = self.time(arena);
-        let acceleration = match asked.acceleration {
+        let acceleration = match asked.has(Capability::Acceleration) {
             true => {
                 let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
                 Some(acceleration(arena, chart, &system, time, coefficients))
             }
             false => None,
         };
-        let balance = match asked.balance {
+        let balance = match asked.has(Capability::Balance) {
             true => {
                 let (kinetics, _) = self.motion.kinetics(arena, chart).into_iter().next()?;
                 let (mut added, count) =
@@ -110,7 +109,7 @@ fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> O
     let (size, results) = (entries.len(), numbered(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
-    let mut program = |batch: &Batch| fuse(&straight_line(arena, batch, coefficients, &|a| phi.contains(&a)));
+    let mut program = |batch: &Batch| program(arena, batch, coefficients, &phi);
     let entries = program(&entries);
     Some(Metric { size, entries, inverse: program(&inverse) })
 }
@@ -137,8 +136,7 @@ fn inverse(
     let mut defined = Definitions::new();
     let of_centre = match motion.masses.single() {
         Some(mass) => {
-            let inverse_mass = arena.pow(mass, -1)?;
-            let inverse_mass = Polynomial::normal_form(arena, inverse_mass);
+            let inverse_mass = Polynomial::reciprocal(arena, mass)?;
             of_one_mass(&chart, motion.masses.frame(), &inverse_mass)
         }
         None if centre.is_empty() => Vec::new(),
@@ -169,21 +167,21 @@ fn inverse(
 /// with `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
 fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
     let (n, phi) = (h.dim, &chart.phi.0);
-    let pairs = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
-    let slope = |i: usize, a: usize, b: usize, j: usize| {
-        let mut sum = Polynomial::zero();
+    let pairs = || pairs(n);
+    let slope = |i: usize, a: usize, b: usize, j: usize| -> Polynomial {
         match h.frame {
-            Frame::Flat => sum = h.velocity[i][a].derivative(h.momentum.0[b][j]),
-            Frame::Body => pairs().for_each(|(c, e)| {
-                let inner = h.velocity[c][a].derivative(h.momentum.0[b][e]);
-                sum.add_product(&inner, &pair(phi[i][c], phi[j][e]), &Rational::ONE);
-            }),
-            Frame::Space => pairs().for_each(|(k, l)| {
-                let inner = h.velocity[i][k].derivative(h.momentum.0[l][j]);
-                sum.add_product(&inner, &pair(phi[k][a], phi[l][b]), &Rational::ONE);
-            }),
+            Frame::Flat => h.velocity[i][a].derivative(h.momentum.0[b][j]),
+            Frame::Body => pairs()
+                .map(|(c, e)| {
+                    h.velocity[c][a].derivative(h.momentum.0[b][e]).mul(&pair(phi[i][c], phi[j][e]))
+                })
+                .sum(),
+            Frame::Space => pairs()
+                .map(|(k, l)| {
+                    h.velocity[i][k].derivative(h.momentum.0[l][j]).mul(&pair(phi[k][a], phi[l][b]))
+                })
+                .sum(),
         }
-        sum
     };
     pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect()
 }
@@ -192,15 +190,10 @@ fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
 fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -> Square<Polynomial> {
     let phi = &chart.phi.0;
     table(chart.dim, |i, j| {
-        let mut form = Polynomial::zero();
-        match frame {
-            Some(Frame::Body) => {
-                let squares = phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right));
-                squares.for_each(|square| form.add_scaled(&square, &Rational::ONE));
-            }
-            _ if i == j => form = Polynomial::constant(Rational::ONE),
-            _ => {}
-        }
+        let form: Polynomial = match frame {
+            Some(Frame::Body) => phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right)).sum(),
+            _ => Polynomial::constant(Rational::from(i64::from(i == j))),
+        };
         form.mul(inverse_mass)
     })
 }
@@ -228,7 +221,7 @@ fn columns(
 }
 
 fn pair(left: Expr, right: Expr) -> Polynomial {
-    Polynomial::term(vec![left, right], Rational::ONE)
+    Polynomial::monomial([left, right])
 }
 
 fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
@@ -256,10 +249,10 @@ fn acceleration(
         .map(|(i, (_, _, rate))| (Quantity::Acceleration.at([i + 1]), flow.along(arena, rate)))
         .collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs = chart.symbols();
     inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
-    fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+    program(arena, &batch, coefficients, &inputs)
 }
 
 /// The quantities of the balance laws, entry after entry.
@@ -270,12 +263,12 @@ fn balance(
     time: Option<Expr>,
     coefficients: &mut Constants,
 ) -> Balance {
-    let mut inputs: Vec<Expr> = chart.coordinates().into_iter().map(|z| chart.symbol(z)).collect();
+    let mut inputs = chart.symbols();
     inputs.extend(time);
     let mut program = |results: Vec<(Symbol, Polynomial)>| {
         let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
         let batch = Batch { shared, kernels, results }.pruned(arena);
-        fuse(&straight_line(arena, &batch, coefficients, &|a| inputs.contains(&a)))
+        batch::program(arena, &batch, coefficients, &inputs)
     };
     let numbered = |(of, entries): (Quantity, Vec<Polynomial>)| -> Vec<(Symbol, Polynomial)> {
         entries.into_iter().enumerate().map(|(k, entry)| (of.at([k + 1]), entry)).collect()

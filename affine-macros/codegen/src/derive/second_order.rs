@@ -1,18 +1,16 @@
 //! The halves of the equations as programs.
 
+use crate::algebra::Arena;
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::second_order::second_order;
-use crate::optimise::straight_line;
 use crate::symbol::Symbol;
 
-use super::batch::batch;
+use super::batch::{batch, program};
 
 /// `q' = V(p)`, `p' = F(t, q)` over the reduced state.
 pub struct Halves {
@@ -35,8 +33,7 @@ impl Halves {
         constants: &mut Constants,
     ) -> Option<Self> {
         let halves = second_order(arena, (h, body), reduction)?;
-        let mut varying: Vec<Expr> =
-            reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+        let mut varying = reduction.symbols();
         varying.extend(body.time(arena));
         let names = |arena: &Arena, system: &System| -> Vec<Symbol> {
             let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
@@ -45,7 +42,7 @@ impl Halves {
         let (positions, momenta) = (names(arena, &halves.positions), names(arena, &halves.momenta));
         let [velocity, force] = [&halves.positions, &halves.momenta].map(|system| {
             let rates = batch(arena, system);
-            fuse(&straight_line(arena, &rates, constants, &|atom| varying.contains(&atom)))
+            program(arena, &rates, constants, &varying)
         });
         Some(Self { positions, momenta, velocity, force })
     }

@@ -3,16 +3,15 @@
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::splitting::{Flow, Principal, splitting};
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
 
-use super::batch::batch;
-use super::prepared::unbound;
+use super::batch::{self, batch};
+use super::prepared::values;
 use crate::algebra::passage::DilatationalMotion;
 
 /// The pieces of a reduced motion.
@@ -77,7 +76,6 @@ pub enum FlowProgram {
 
 impl FlowProgram {
     /// What it computes.
-    #[must_use]
     pub fn program(&self) -> &Program {
         match self {
             Self::Shift { program, .. }
@@ -97,8 +95,7 @@ impl Programs {
         constants: &mut Constants,
     ) -> Option<Self> {
         let split = splitting(arena, (h, body), reduction)?;
-        let mut varying: Vec<Expr> =
-            reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+        let mut varying = reduction.symbols();
         varying.extend(body.time(arena));
         varying.push(arena.symbol(Quantity::TimeOfFlow));
         let mut pieces = Vec::new();
@@ -120,9 +117,7 @@ fn written(
     constants: &mut Constants,
 ) -> FlowProgram {
     let name = |arena: &Arena, s: Expr| arena.symbol_of(s);
-    let mut program = |arena: &mut Arena, batch: &Batch| {
-        fuse(&straight_line(arena, batch, constants, &|atom| varying.contains(&atom)))
-    };
+    let mut program = |arena: &mut Arena, batch: &Batch| batch::program(arena, batch, constants, varying);
     let table = |arena: &Arena, symbols: &[Expr]| -> Vec<Vec<Symbol>> {
         let rows = symbols.chunks(reduction.chart.dim);
         rows.map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
@@ -178,7 +173,7 @@ fn written(
 fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
     let size = form.values.len();
     let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
-    let program = unbound(arena, upper);
+    let program = values(arena, upper);
     let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_of(*s)).collect();
     let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
     PrincipalProgram { program, values: names(&form.values), vectors }

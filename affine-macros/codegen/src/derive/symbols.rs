@@ -4,7 +4,6 @@ use crate::ir::Program;
 use crate::symbol::Quantity;
 
 /// Does a program read the time?
-#[must_use]
 pub fn reads_time(program: &Program) -> bool {
     program.symbols().any(|symbol| symbol.quantity() == Some(Quantity::Time))
 }
@@ -20,7 +19,6 @@ pub enum VolumeMeasure {
 
 impl VolumeMeasure {
     /// The quantity that its symbol stands for.
-    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Self::MeanLogStretch => Quantity::MeanLogStretch,

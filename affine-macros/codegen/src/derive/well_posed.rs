@@ -29,7 +29,6 @@ pub enum Factor {
 
 impl Factor {
     /// The name in messages of `prepare()`, without what it is a factor of.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Eigenvalue(name) | Self::Mass(name) => name,

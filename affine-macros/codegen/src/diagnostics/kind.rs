@@ -32,7 +32,6 @@ macro_rules! ideas {
 
         impl Diagnostic {
             /// The stable short name of the mistake, which also ends the first line of its message.
-            #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$idea(mistake) => mistake.name(),)*

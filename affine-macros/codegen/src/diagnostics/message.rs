@@ -4,6 +4,7 @@
 use std::fmt;
 
 /// The three parts of a message.
+#[must_use]
 pub(super) struct Text {
     what: String,
     why: String,

@@ -12,7 +12,7 @@ use super::body::{Body, body};
 use super::common::Function;
 use super::names::Names;
 use super::number::{Number, number};
-use super::pattern::ident;
+use super::pattern::{ident, named};
 use super::scope::Scope;
 
 /// Where a method has its coefficients from.
@@ -52,7 +52,7 @@ impl Context<'_> {
     /// How right-hand sides are inlined: lanes become vectors of the processor only inside of a function that is compiled for
     /// it.
     pub(super) fn inline(&self) -> TokenStream {
-        match self.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
+        match self.spec.asked().has(Capability::Lanes) {
             true => quote!(#[inline(always)]),
             false => quote!(#[inline]),
         }
@@ -105,6 +105,13 @@ impl Context<'_> {
         (quote!(#implementation), quote!(#ty), quote!(#clause))
     }
 
+    /// The implementation of a trait of the runtime for what implements the model.
+    pub(super) fn implementation(&self, of: &str, items: &TokenStream) -> TokenStream {
+        let (of, prepared) = (format_ident!("{of}"), &self.names.prepared);
+        let ((generics, types, clause), rt, n) = (self.generics(), &self.names.rt, self.dim());
+        quote!(impl #generics #rt::#of<#n> for #prepared #types #clause { #items })
+    }
+
     /// A field as what it computes. It stands where the specification names it, so that what its type lacks is said there,
     /// and once: the calls ask nothing of it any more.
     pub(super) fn computing(&self, name: &Ident, custom: &Custom) -> TokenStream {
@@ -139,10 +146,7 @@ impl Context<'_> {
 
     /// A program over a number, whose inputs are variables of the same name.
     pub(super) fn written(&self, program: &Program, number: Number) -> Body {
-        let input = |symbol: &Symbol| {
-            let name = ident(symbol);
-            quote!(#name)
-        };
+        let input = |symbol: &Symbol| named(symbol);
         let rebased = self.model.prepared.metrics.is_some();
         let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
         body(program, &Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt })

@@ -9,7 +9,7 @@ use crate::symbol::Symbol;
 use super::body::{Body, body};
 use super::names::Names;
 use super::number::{Number, number};
-use super::pattern::ident;
+use super::pattern::named;
 use super::scope::Scope;
 
 /// The local variable of a field of matrix type.
@@ -40,10 +40,7 @@ fn read(symbol: &Symbol) -> TokenStream {
         }
         Symbol::Entry(field, row, column) => entry(matrix_name(field), *row, *column),
         Symbol::Prepared(matrix, row, column) => entry(matrix_name(matrix), *row, *column),
-        known => {
-            let name = ident(known);
-            quote!(#name)
-        }
+        known => named(known),
     }
 }
 

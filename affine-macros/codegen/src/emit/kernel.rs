@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use super::pattern::ident;
+use super::pattern::named;
 use super::scope::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::symbol::Symbol;
@@ -88,12 +88,5 @@ pub(super) fn bound(group: &Group<Symbol>, read: &[&Symbol]) -> TokenStream {
     if !group.entries().into_iter().any(is_read) {
         return quote!(_);
     }
-    written(group, |symbol| {
-        if is_read(symbol) {
-            let name = ident(symbol);
-            quote!(#name)
-        } else {
-            quote!(_)
-        }
-    })
+    written(group, |symbol| if is_read(symbol) { named(symbol) } else { quote!(_) })
 }

@@ -10,11 +10,10 @@ use crate::spec::Capability;
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
-    if !context.spec.emit.iter().any(|capability| capability.value == Capability::Lanes) {
+    if !context.spec.asked().has(Capability::Lanes) {
         return TokenStream::new();
     }
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let (t, constants) = (&context.names.scalar, &context.names.constants);
     let stored = trajectory::kept(context, &[]);
     let (argument, lane, marker) = if stored.is_empty() {
@@ -27,23 +26,22 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         .map(|field| field.with(context, |entry| quote!(#rt::gathered(constants, |lane| lane.#entry))));
     let of_lane =
         stored.iter().map(|field| field.with(context, |entry| quote!(#rt::in_lane(&constants.#entry, lane))));
-    quote! {
-        impl #generics #rt::InLanes<#n> for #prepared #types #clause {
-            fn constants_in_lanes<#t: #rt::Lanes>(
-                #argument: &[Self::Constants<#rt::f64>],
-            ) -> Self::Constants<#t> {
-                #constants { #(#gathered,)* #marker }
-            }
-
-            #[inline(always)]
-            fn constants_of_lane<#t: #rt::Lanes>(
-                #argument: &Self::Constants<#t>,
-                #lane: #rt::usize,
-            ) -> Self::Constants<#t::Lane> {
-                #constants { #(#of_lane,)* #marker }
-            }
+    let items = quote! {
+        fn constants_in_lanes<#t: #rt::Lanes>(
+            #argument: &[Self::Constants<#rt::f64>],
+        ) -> Self::Constants<#t> {
+            #constants { #(#gathered,)* #marker }
         }
-    }
+
+        #[inline(always)]
+        fn constants_of_lane<#t: #rt::Lanes>(
+            #argument: &Self::Constants<#t>,
+            #lane: #rt::usize,
+        ) -> Self::Constants<#t::Lane> {
+            #constants { #(#of_lane,)* #marker }
+        }
+    };
+    context.implementation("InLanes", &items)
 }
 
 impl Kept {

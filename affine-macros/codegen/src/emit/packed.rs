@@ -16,18 +16,16 @@ use super::trajectory;
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(packed) = &context.model.methods.packed else { return TokenStream::new() };
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let size = number(4 * packed.state.len());
     let change = change_of_storage(context, packed);
     let equations = equations(context, packed);
-    quote! {
-        impl #generics #rt::PackedEquations<#n> for #prepared #types #clause {
-            type Packed = #rt::Packed<#size>;
-            #change
-            #equations
-        }
-    }
+    let items = quote! {
+        type Packed = #rt::Packed<#size>;
+        #change
+        #equations
+    };
+    context.implementation("PackedEquations", &items)
 }
 
 /// `packed` and `unpacked`.

@@ -1,7 +1,7 @@
 //! Variables of symbols, and patterns that bind those that are read.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use crate::derive::reads_time;
 use crate::ir::Program;
@@ -10,6 +10,11 @@ use crate::symbol::{Quantity, Symbol};
 /// The variable of a symbol.
 pub(super) fn ident(symbol: &Symbol) -> Ident {
     format_ident!("{}", symbol.to_string())
+}
+
+/// The same as an expression or as a pattern.
+pub(super) fn named(symbol: &Symbol) -> TokenStream {
+    ident(symbol).into_token_stream()
 }
 
 /// The variables of symbols.
@@ -24,14 +29,18 @@ pub(super) fn reads(used: &[Symbol], symbols: &[Symbol]) -> bool {
 
 /// Pattern that binds the components that are used, in order.
 pub(super) fn pattern(components: &[Symbol], used: &[Symbol]) -> TokenStream {
-    let bind = components.iter().map(|symbol| match used.contains(symbol) {
-        true => {
-            let name = ident(symbol);
-            quote!(#name)
-        }
-        false => quote!(_),
-    });
+    let bind = components.iter().map(|symbol| if used.contains(symbol) { named(symbol) } else { quote!(_) });
     quote!([#(#bind),*])
+}
+
+/// The statement that binds those of some components that are used to what `from` points at, and the name of that parameter,
+/// an idle one where none is.
+pub(super) fn bound(components: &[Symbol], used: &[Symbol], from: &str) -> (TokenStream, Ident) {
+    if !reads(used, components) {
+        return (TokenStream::new(), format_ident!("_{from}"));
+    }
+    let (bound, from) = (pattern(components, used), format_ident!("{from}"));
+    (quote!(let #bound = *#from;), from)
 }
 
 /// The same of a matrix, row by row.

@@ -12,7 +12,7 @@ use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::parametric::{Evaluation, Method, asks_again, equations_head};
 use super::passage::{any, components_of, programs, statements, value, variable};
-use super::pattern::{identifiers, pattern, reads, time};
+use super::pattern::{bound, identifiers, pattern, time};
 use super::point::wrapper;
 use super::trajectory::{self, Kept};
 
@@ -87,14 +87,12 @@ fn reduced_equations(context: &Context) -> TokenStream {
     let program = &context.model.dynamics.reduced.program;
     let used = program.inputs();
     let all = context.model.dynamics.reduced.symbols();
-    let bound = pattern(&all, &used);
+    let (bind, state) = bound(&all, &used, "reduced");
     let kept = trajectory::all(context);
     let coefficients = pattern(&kept, &used);
     let read = (!kept.is_empty()).then(|| quote!(let #coefficients = constants.coefficients;));
     let constants = if kept.is_empty() { quote!(_constants) } else { quote!(constants) };
-    let reads_state = reads(&used, &all);
-    let state = if reads_state { quote!(reduced) } else { quote!(_reduced) };
-    let bind = reads_state.then(|| quote!(let #bound = *reduced;));
+
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let time = time(program);
     let inline = context.inline();

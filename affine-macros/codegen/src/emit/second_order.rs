@@ -18,35 +18,33 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(Halves { positions, momenta, velocity, force }) = &context.model.methods.second_order else {
         return TokenStream::new();
     };
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let (t, size, clock) = (&context.names.scalar, number(positions.len()), time(force));
     let (velocity_constants, velocity) = written(context, velocity, (momenta, quote!(momenta)));
     let (force_constants, force) = written(context, force, (positions, quote!(positions)));
-    quote! {
-        impl #generics #rt::SecondOrderEquations<#n> for #prepared #types #clause {
-            type Half<#t: #rt::Scalar> = [#t; #size];
+    let items = quote! {
+        type Half<#t: #rt::Scalar> = [#t; #size];
 
-            #[inline(always)]
-            fn drift<#t: #rt::Scalar>(
-                &self,
-                #velocity_constants: &Self::Constants<#t>,
-                momenta: &Self::Half<#t>,
-            ) -> Self::Half<#t> {
-                #velocity
-            }
-
-            #[inline(always)]
-            fn force<#t: #rt::Scalar>(
-                &self,
-                #clock: #t,
-                #force_constants: &Self::Constants<#t>,
-                positions: &Self::Half<#t>,
-            ) -> Self::Half<#t> {
-                #force
-            }
+        #[inline(always)]
+        fn drift<#t: #rt::Scalar>(
+            &self,
+            #velocity_constants: &Self::Constants<#t>,
+            momenta: &Self::Half<#t>,
+        ) -> Self::Half<#t> {
+            #velocity
         }
-    }
+
+        #[inline(always)]
+        fn force<#t: #rt::Scalar>(
+            &self,
+            #clock: #t,
+            #force_constants: &Self::Constants<#t>,
+            positions: &Self::Half<#t>,
+        ) -> Self::Half<#t> {
+            #force
+        }
+    };
+    context.implementation("SecondOrderEquations", &items)
 }
 
 /// A program over one half, and the name of the constants that it reads.

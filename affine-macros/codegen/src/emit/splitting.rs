@@ -13,7 +13,7 @@ use super::body::{Body, inner};
 use super::context::{Coefficients, Context};
 use super::number::number;
 use super::passage::closed_form;
-use super::pattern::{identifiers, pattern, reads, table};
+use super::pattern::{self, identifiers, table};
 use super::trajectory::{self, coefficients};
 
 /// The implementation of the capability.
@@ -21,8 +21,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     let Some(Programs { pieces, nystrom, .. }) = &context.model.methods.splitting else {
         return TokenStream::new();
     };
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let t = &context.names.scalar;
     let names = pieces.iter().map(|(name, _)| name);
     let bodies: Vec<TokenStream> =
@@ -54,26 +53,25 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         true => quote!(constants),
         false => quote!(_constants),
     };
-    quote! {
-        impl #generics #rt::Splitting<#n> for #prepared #types #clause {
-            const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
-            const NYSTROM: ::core::primitive::bool = #nystrom;
-            #dilates
+    let items = quote! {
+        const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+        const NYSTROM: ::core::primitive::bool = #nystrom;
+        #dilates
 
-            #[inline]
-            fn flow<#t: #rt::Real>(
-                &self,
-                #piece: #rt::usize,
-                #time: #t,
-                #h: #t,
-                #constants: &Self::Constants<#t>,
-                #state: &mut Self::Reduced<#t>,
-                #carry: &mut Self::Reduced<#t>,
-            ) {
-                #body
-            }
+        #[inline]
+        fn flow<#t: #rt::Real>(
+            &self,
+            #piece: #rt::usize,
+            #time: #t,
+            #h: #t,
+            #constants: &Self::Constants<#t>,
+            #state: &mut Self::Reduced<#t>,
+            #carry: &mut Self::Reduced<#t>,
+        ) {
+            #body
         }
-    }
+    };
+    context.implementation("Splitting", &items)
 }
 
 /// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
@@ -82,10 +80,7 @@ fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
     let (read, _) = coefficients(context, &used);
     used.extend(more.iter().cloned());
     let states = context.model.dynamics.reduced.symbols();
-    let bind = reads(&used, &states).then(|| {
-        let bound = pattern(&states, &used);
-        quote!(let #bound = *state;)
-    });
+    let (bind, _) = pattern::bound(&states, &used, "state");
     quote!(#read #bind)
 }
 

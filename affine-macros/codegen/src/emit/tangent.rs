@@ -16,8 +16,7 @@ use super::trajectory;
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(variational) = &context.model.methods.tangent else { return TokenStream::new() };
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let t = &context.names.scalar;
     let groups = context.model.dynamics.reduced.groups.iter().map(|(quantity, components)| {
         let len = number(components.len());
@@ -30,16 +29,15 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         Some(program) => by_program(context, program, states),
         None => by_duals(context, &len),
     };
-    quote! {
-        impl #generics #rt::Tangent<#n> for #prepared #types #clause {
-            type Varied<#t: #rt::Scalar> = [#t; #both];
-            const VARIED: &'static [#rt::Group] =
-                &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
+    let items = quote! {
+        type Varied<#t: #rt::Scalar> = [#t; #both];
+        const VARIED: &'static [#rt::Group] =
+            &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
 
-            #[inline]
-            #equations
-        }
-    }
+        #[inline]
+        #equations
+    };
+    context.implementation("Tangent", &items)
 }
 
 /// The equations over dual numbers.

@@ -22,21 +22,19 @@ use writer::Writer;
 /// The implementation of the capability.
 pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     let Some(recurrence) = &context.model.methods.taylor else { return TokenStream::new() };
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let rt = &context.names.rt;
     let t = &context.names.scalar;
     let slots = number(recurrence.row.len());
     let mut writer = Writer { context, recurrence, fixed: Vec::new() };
     let (columns, start, ready, next) = (writer.columns(), writer.start(), writer.ready(), writer.next());
-    quote! {
-        impl #generics #rt::Taylor<#n> for #prepared #types #clause {
-            type Row<#t: #rt::Scalar> = [#t; #slots];
-            #columns
-            #start
-            #ready
-            #next
-        }
-    }
+    let items = quote! {
+        type Row<#t: #rt::Scalar> = [#t; #slots];
+        #columns
+        #start
+        #ready
+        #next
+    };
+    context.implementation("Taylor", &items)
 }
 
 impl Writer<'_> {

@@ -33,9 +33,7 @@ pub(super) fn lattice_of_circle(context: &Context) -> TokenStream {
 }
 
 fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
-    let (prepared, rt, t, n) =
-        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
-    let (generics, types, clause) = context.generics();
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let state: Vec<Symbol> = form.state.iter().flat_map(|(_, names)| names.clone()).collect();
     let frames = form.frames.iter().flat_map(|(_, names)| names.clone());
     let framed: Vec<Symbol> = state.iter().cloned().chain(frames).collect();
@@ -58,50 +56,47 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let energy_result = body.result();
     let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
     let pieces = pieces::implementation(context, form, &framed);
-    quote! {
-        #pieces
-        #(#[doc = #docs])*
-        impl #generics #rt::LatticeForm<#n> for #prepared #types #clause {
-            const LATTICE: #rt::LatticeDescription = #description;
-            type Places<#t: #rt::Scalar> = [#t; #size];
-            type Framed<#t: #rt::Scalar> = [#t; #framed_size];
-            type Couplings<#t: #rt::Scalar> = [#t; #constants];
+    let items = quote! {
+        const LATTICE: #rt::LatticeDescription = #description;
+        type Places<#t: #rt::Scalar> = [#t; #size];
+        type Framed<#t: #rt::Scalar> = [#t; #framed_size];
+        type Couplings<#t: #rt::Scalar> = [#t; #constants];
 
-            fn lattice_hamiltonian<#t: #rt::Real>(
-                &self,
-                #couplings: &Self::Couplings<#t>,
-                state: &Self::Places<#t>,
-            ) -> #t {
-                #energy
-                #energy_result
-            }
-
-            #[inline]
-            fn lattice_equations<#t: #rt::Scalar>(
-                &self,
-                #couplings: &Self::Couplings<#t>,
-                state: &Self::Places<#t>,
-            ) -> Self::Places<#t> {
-                #rates
-                [#(#rate_results),*]
-            }
-
-            #[inline]
-            fn framed_equations<#t: #rt::Scalar>(
-                &self,
-                #couplings: &Self::Couplings<#t>,
-                state: &Self::Framed<#t>,
-            ) -> Self::Framed<#t> {
-                #framed_rates
-                [#(#framed_results),*]
-            }
+        fn lattice_hamiltonian<#t: #rt::Real>(
+            &self,
+            #couplings: &Self::Couplings<#t>,
+            state: &Self::Places<#t>,
+        ) -> #t {
+            #energy
+            #energy_result
         }
-    }
+
+        #[inline]
+        fn lattice_equations<#t: #rt::Scalar>(
+            &self,
+            #couplings: &Self::Couplings<#t>,
+            state: &Self::Places<#t>,
+        ) -> Self::Places<#t> {
+            #rates
+            [#(#rate_results),*]
+        }
+
+        #[inline]
+        fn framed_equations<#t: #rt::Scalar>(
+            &self,
+            #couplings: &Self::Couplings<#t>,
+            state: &Self::Framed<#t>,
+        ) -> Self::Framed<#t> {
+            #framed_rates
+            [#(#framed_results),*]
+        }
+    };
+    let form = context.implementation("LatticeForm", &items);
+    quote!(#pieces #(#[doc = #docs])* #form)
 }
 
 fn conversions(context: &Context) -> TokenStream {
-    let (prepared, rt, n) = (&context.names.prepared, &context.names.rt, context.dim());
-    let (generics, types, clause) = context.generics();
+    let (rt, n) = (&context.names.rt, context.dim());
     let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
     let confined = context.constraint();
@@ -137,30 +132,29 @@ fn conversions(context: &Context) -> TokenStream {
         None => quote!(#rt::phase_point(phi, #wrap(spin), #centre)),
         Some(group) => quote!(#rt::confined_point(#group, phi, #wrap(spin), #centre)),
     };
-    quote! {
-        impl #generics #rt::TwoPolarForm<#n> for #prepared #types #clause {
-            fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
-                #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, ::core::option::Option::None)
-            }
-
-            fn lattice_after(
-                &self,
-                point: &Self::Point<#f64>,
-                before: &#rt::Lattice<#n>,
-            ) -> #rt::Result<#rt::Lattice<#n>> {
-                #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, #some(before))
-            }
-
-            fn at_lattice(&self, lattice: &#rt::Lattice<#n>) -> #rt::Result<Self::Point<#f64>> {
-                let (phi, spin) = #rt::placement_and_spin::<#n, #frame>(lattice)?;
-                #point
-            }
-
-            fn isotropic(&self) -> ::core::option::Option<#rt::Isotropic> {
-                #isotropic
-            }
+    let items = quote! {
+        fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
+            #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, ::core::option::Option::None)
         }
-    }
+
+        fn lattice_after(
+            &self,
+            point: &Self::Point<#f64>,
+            before: &#rt::Lattice<#n>,
+        ) -> #rt::Result<#rt::Lattice<#n>> {
+            #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, #some(before))
+        }
+
+        fn at_lattice(&self, lattice: &#rt::Lattice<#n>) -> #rt::Result<Self::Point<#f64>> {
+            let (phi, spin) = #rt::placement_and_spin::<#n, #frame>(lattice)?;
+            #point
+        }
+
+        fn isotropic(&self) -> ::core::option::Option<#rt::Isotropic> {
+            #isotropic
+        }
+    };
+    context.implementation("TwoPolarForm", &items)
 }
 
 fn docs(form: &TwoPolar) -> Vec<String> {

@@ -35,19 +35,16 @@ pub struct Builder {
 
 impl Builder {
     /// An empty program.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// An empty program that is computed in some of these ways.
-    #[must_use]
     pub fn by(ways: Ways) -> Self {
         Self { ways, ..Self::default() }
     }
 
     /// Is there a power that is made of other powers than the one before?
-    #[must_use]
     pub fn has_powers(&self) -> bool {
         self.has_powers
     }
@@ -87,7 +84,6 @@ impl Builder {
     }
 
     /// The program: only what the results need.
-    #[must_use]
     pub fn finish(self) -> Program {
         self.program.without_dead_steps()
     }

@@ -19,7 +19,6 @@ pub struct Call {
 
 impl Call {
     /// The place of the field that it asks, from 1, where it asks one.
-    #[must_use]
     pub fn field(&self) -> Option<usize> {
         match self.callee {
             Callee::Custom(place, _) => Some(place),
@@ -34,19 +33,16 @@ impl Call {
     }
 
     /// Does it provide the input?
-    #[must_use]
     pub fn provides(&self, input: &Symbol) -> bool {
         self.results.iter().any(|group| group.entries().contains(&input))
     }
 
     /// The values it reads.
-    #[must_use]
     pub fn operands(&self) -> Vec<Value> {
         self.arguments.iter().flat_map(Group::entries).copied().collect()
     }
 
     /// The same call on renumbered values.
-    #[must_use]
     pub fn renumbered(&self, place: &[Value]) -> Self {
         let arguments = self.arguments.iter().map(|group| group.map(|v| place[*v])).collect();
         Self { callee: self.callee, arguments, results: self.results.clone() }

@@ -18,7 +18,6 @@ pub struct Common {
 
 impl Common {
     /// What `others` share with `base`; `None` where none of them shares much.
-    #[must_use]
     pub fn of<'p>(base: &Program, others: impl IntoIterator<Item = &'p Program>) -> Option<Self> {
         if base.operations().weight() < LEAST {
             return None;
@@ -46,7 +45,6 @@ impl Common {
 
     /// The program with the common results as inputs; `None` where it has too little in common, or computes on with something
     /// that is no result.
-    #[must_use]
     pub fn taken_from(&self, program: &Program) -> Option<Program> {
         let alike = Alike::new(&self.program, program);
         let results: FxHashMap<Value, &Symbol> =

@@ -25,7 +25,6 @@ pub struct Operations {
 
 impl Operations {
     /// The operations of both counts together.
-    #[must_use]
     fn with(self, other: Self) -> Self {
         Self {
             mul: self.mul + other.mul,
@@ -38,7 +37,6 @@ impl Operations {
     }
 
     /// Additions and multiplications, with a division as heavy as eight of them and a function as twenty.
-    #[must_use]
     pub fn weight(self) -> usize {
         self.mul + self.add + 8 * self.div + 20 * (self.sqrt + self.exp + self.ln)
     }
@@ -46,7 +44,6 @@ impl Operations {
 
 impl Program {
     /// Counts the operations.
-    #[must_use]
     pub fn operations(&self) -> Operations {
         let mut count = Operations::default();
         for step in &self.steps {

@@ -3,7 +3,6 @@
 use super::{Op, Program, Value};
 
 /// Fuses products into the sums that alone read them.
-#[must_use]
 pub fn fuse(program: &Program) -> Program {
     let uses = program.uses();
     let named: Vec<Value> = program.names.iter().map(|(v, _)| *v).collect();

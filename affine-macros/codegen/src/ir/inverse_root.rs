@@ -5,7 +5,6 @@ use crate::algebra::{Function, Rational};
 use super::{Op, Program, Value};
 
 /// The program with `a r^(-1/3)` in place of `a / cbrt(r)`, where nothing else reads the root.
-#[must_use]
 pub fn with_inverse_roots(program: &Program) -> Program {
     let uses = program.uses();
     let named: Vec<Value> = program.names.iter().map(|(v, _)| *v).collect();

@@ -24,7 +24,6 @@ pub struct Namer<'p> {
 
 impl<'p> Namer<'p> {
     /// For values of a program.
-    #[must_use]
     pub fn new(program: &'p Program) -> Self {
         Self::of(program, &program.names)
     }
@@ -120,7 +119,6 @@ impl<'p> Namer<'p> {
 
 impl Program {
     /// With names of this kind in place of some that say nothing.
-    #[must_use]
     pub fn named_by_formulas(mut self, nameless: &FxHashSet<Symbol>) -> Self {
         let is_kept = |(_, name): &&(Value, Symbol)| !nameless.contains(name);
         let mut namer = Namer::of(&self, self.names.iter().filter(is_kept));
@@ -140,13 +138,11 @@ fn short(name: Symbol) -> Option<Symbol> {
 }
 
 /// The name of an exact number; none where it is long.
-#[must_use]
 pub fn of_number(number: &Rational) -> Option<String> {
     (!number.is_long()).then(|| format!("r{}", digits(number)))
 }
 
 /// An exact number as a part of a name.
-#[must_use]
 pub fn digits(number: &Rational) -> String {
     number.to_string().replace('/', "_").replace('-', "m")
 }

@@ -33,7 +33,6 @@ const FEWEST: usize = 12;
 impl Packed {
     /// The right-hand side whose results are the rates of the components of `groups`, in their order; `None` where
     /// scalars do as well, where it is long, or where it calls functions of the runtime.
-    #[must_use]
     pub fn of(program: &Program, groups: &[Vec<Symbol>]) -> Option<Self> {
         let components: usize = groups.iter().map(Vec::len).sum();
         if components < FEWEST || program.steps.len() > MOST_STEPS {
@@ -49,7 +48,6 @@ impl Packed {
 
     /// By the best layout of the state, chosen group by group, and about how many instructions a stage takes; `None`
     /// where runtime functions are called.
-    #[must_use]
     pub fn cheapest(program: &Program, groups: &[Vec<Symbol>]) -> Option<(Self, usize)> {
         if !program.calls.is_empty() {
             return None;

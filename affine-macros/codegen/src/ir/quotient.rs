@@ -5,7 +5,6 @@ use crate::algebra::Rational;
 use super::{Op, Program, Value};
 
 /// The program with `a / d` in place of `a (1/d)`, where nothing else reads the reciprocal: one operation less, and one rounding.
-#[must_use]
 pub fn with_quotients(program: &Program) -> Program {
     let uses = program.uses();
     let divisor = |v: Value| match program.steps[v] {

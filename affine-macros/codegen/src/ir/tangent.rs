@@ -13,7 +13,6 @@ use super::{Op, Program, Value};
 
 /// The results of `program`, then their changes. The input `x`, where `changing(x)`, changes by the input
 /// [`Aspect::Change`] of `x`. What runtime functions provide does not change: programs that call some have no derivative here.
-#[must_use]
 pub fn with_tangent(program: &Program, changing: &impl Fn(&Symbol) -> bool) -> Program {
     let mut builder = Builder { steps: program.steps.clone(), known: FxHashMap::default() };
     for (value, op) in program.steps.iter().enumerate() {

@@ -23,7 +23,6 @@ pub use recurrence::{Column, Factor, Pass, Place, Recurrence, Rule, Series, Term
 
 impl Recurrence {
     /// The recurrence of `y' = f(y)`: `states` are the inputs that move, in the order of the outputs, their rates.
-    #[must_use]
     pub fn of(program: &Program, states: &[Symbol]) -> Self {
         let program = companions::completed(program);
         let draft = rules::Draft::of(&program, states);

@@ -1,12 +1,14 @@
 //! An expression of a potential in base functions of the placement, the time and the fields.
 
+use super::combined;
 use super::components;
 use super::constant::constant;
 use super::traces::{self, entry};
 use crate::algebra::arena::Node;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, numbered};
+use crate::spec::{Expression, ExpressionKind, Operator, numbered};
 use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
@@ -45,23 +47,7 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
             let a = of(arena, a)?;
             Some(arena.neg(a))
         }
-        ExpressionKind::Add(a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
-            Some(arena.add(a, b))
-        }
-        ExpressionKind::Subtract(a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
-            Some(arena.sub(a, b))
-        }
-        ExpressionKind::Multiply(a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
-            Some(arena.mul(a, b))
-        }
-        ExpressionKind::Divide(a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
-            arena.div(a, b)
-        }
-        ExpressionKind::Power(a, exponent) => {
+        ExpressionKind::Binary(Operator::Power, a, exponent) => {
             let a = of(arena, a)?;
             let exponent = constant(exponent, n)?;
             match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
@@ -73,6 +59,10 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
                 }
                 (None, _) => None,
             }
+        }
+        ExpressionKind::Binary(operator, a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            combined(arena, *operator, a, b)
         }
         ExpressionKind::Call(function, a) => {
             let a = of(arena, a)?;
@@ -100,7 +90,7 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
         }
         ExpressionKind::Pairs(f) => {
             let mut terms = Vec::new();
-            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+            for (a, b) in above_diagonal(n) {
                 let difference = difference_of(arena, a, b);
                 let difference = Some(difference);
                 terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));

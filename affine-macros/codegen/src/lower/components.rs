@@ -3,6 +3,7 @@
 //! With `x' = A x` and `phi' = A phi B^-1`: `x = A^-1 x'`, `phi = A^-1 phi' B`, `G = phi^T g phi = B^T G' B` with lower
 //! indices, `Ct = phi eta^-1 phi^T = A^-1 Ct' A^-T` with upper ones.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::Base;
@@ -22,7 +23,7 @@ pub(super) fn carried(
     metrics: &Metrics,
     rebased: &mut Vec<Rebased>,
 ) -> Option<Vec<Expr>> {
-    let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
+    let pairs = || pairs(n);
     let mut bases: Vec<Base> = (0..n).map(Base::Position).collect();
     bases.extend(pairs().map(|(i, a)| Base::Placement(i, a)));
     bases.extend(pairs().filter(|(a, b)| a <= b).flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b)]));
@@ -41,7 +42,7 @@ pub(super) fn carried(
 /// A component as a sum of those in orthonormal bases.
 fn value(arena: &mut Arena, base: Base, space_inverse: &Matrix, body: &Matrix) -> Expr {
     let n = body.dim();
-    let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
+    let pairs = || pairs(n);
     let mut terms: Vec<Vec<Expr>> = Vec::new();
     let mut add = |arena: &mut Arena, factors: &[Expr], base: Base| {
         let own = base.symbol(arena);

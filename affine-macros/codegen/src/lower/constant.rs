@@ -1,7 +1,7 @@
 //! Exact values of expressions without fields.
 
 use crate::algebra::Rational;
-use crate::spec::{Expression, ExpressionKind};
+use crate::spec::{Expression, ExpressionKind, Operator};
 
 /// The largest exponent that is evaluated. No kinetic energy has more than a few powers, and the polynomials in
 /// the fields that the derivation multiplies out grow with this degree.
@@ -9,7 +9,6 @@ pub const LARGEST_POWER: u64 = 16;
 
 /// The exact value of an expression in dimension `n`; `None` where it depends on a field or on the
 /// state, or has none.
-#[must_use]
 pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
     let value = |operand: &Expression| constant(operand, n);
     match &expression.kind {
@@ -18,11 +17,13 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
             (name == "n").then(|| i64::try_from(n).ok().map(Rational::from)).flatten()
         }
         ExpressionKind::Negate(one) => Some(-&value(one)?),
-        ExpressionKind::Add(left, right) => Some(&value(left)? + &value(right)?),
-        ExpressionKind::Subtract(left, right) => Some(&value(left)? - &value(right)?),
-        ExpressionKind::Multiply(left, right) => Some(&value(left)? * &value(right)?),
-        ExpressionKind::Divide(left, right) => value(left)?.checked_div(&value(right)?),
-        ExpressionKind::Power(base, exponent) => value(base)?.pow(integer(exponent, n)?),
+        ExpressionKind::Binary(operator, left, right) => match operator {
+            Operator::Add => Some(&value(left)? + &value(right)?),
+            Operator::Subtract => Some(&value(left)? - &value(right)?),
+            Operator::Multiply => Some(&value(left)? * &value(right)?),
+            Operator::Divide => value(left)?.checked_div(&value(right)?),
+            Operator::Power => value(left)?.pow(integer(right, n)?),
+        },
         // A function of a number has no exact value in general, and the others depend on the state.
         ExpressionKind::FieldEntry(..)
         | ExpressionKind::Call(..)
@@ -38,7 +39,6 @@ pub fn constant(expression: &Expression, n: usize) -> Option<Rational> {
 }
 
 /// The value of an exponent: an integer of moderate size.
-#[must_use]
 pub fn integer(exponent: &Expression, n: usize) -> Option<i32> {
     let value = constant(exponent, n)?.to_i64()?;
     (value.unsigned_abs() <= LARGEST_POWER).then(|| i32::try_from(value).ok()).flatten()

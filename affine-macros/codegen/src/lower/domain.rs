@@ -3,9 +3,10 @@
 
 use super::base_functions::{Reading, difference_of, is_positive, value};
 use super::constant::constant;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function};
 use crate::mechanics::potential::{Bound, Guard};
-use crate::spec::{Expression, ExpressionKind};
+use crate::spec::{Expression, ExpressionKind, Operator};
 use crate::symbol::Quantity;
 
 /// The guards of an energy, in the order of its parts, angles last; those that hold everywhere are left out.
@@ -30,7 +31,7 @@ impl Guards<'_> {
     fn read(&mut self, part: &Expression, difference: Option<Expr>) {
         if let ExpressionKind::Pairs(one) = &part.kind {
             let n = self.n;
-            for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+            for (a, b) in above_diagonal(n) {
                 let difference = difference_of(self.arena, a, b);
                 self.read(one, Some(difference));
             }
@@ -52,8 +53,8 @@ impl Guards<'_> {
                     self.add(part, format!("cos({argument})"), Bound::NotZero, cosine);
                 }
             }
-            ExpressionKind::Divide(_, divisor) => self.divide(part, divisor, difference),
-            ExpressionKind::Power(base, exponent)
+            ExpressionKind::Binary(Operator::Divide, _, divisor) => self.divide(part, divisor, difference),
+            ExpressionKind::Binary(Operator::Power, base, exponent)
                 if constant(exponent, self.n).is_some_and(|exponent| exponent.is_negative()) =>
             {
                 self.divide(part, base, difference);
@@ -69,13 +70,13 @@ impl Guards<'_> {
     /// The factors of what a part divides by.
     fn divide(&mut self, part: &Expression, divisor: &Expression, difference: Option<Expr>) {
         match &divisor.kind {
-            ExpressionKind::Multiply(a, b) => {
+            ExpressionKind::Binary(Operator::Multiply, a, b) => {
                 self.divide(part, a, difference);
                 self.divide(part, b, difference);
             }
             ExpressionKind::Negate(a)
-            | ExpressionKind::Power(a, _)
-            | ExpressionKind::Divide(a, _)
+            | ExpressionKind::Binary(Operator::Power, a, _)
+            | ExpressionKind::Binary(Operator::Divide, a, _)
             | ExpressionKind::Call(Function::Abs, a) => self.divide(part, a, difference),
             _ => self.keep(part, divisor, Bound::NotZero, difference),
         }

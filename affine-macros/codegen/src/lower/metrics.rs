@@ -6,7 +6,6 @@ use crate::mechanics::metrics::{Bases, Metrics};
 use crate::spec::{Metric, Spec, Value};
 
 /// The metrics; `None` where they are the identity, stated or not, and where a size is wrong.
-#[must_use]
 pub fn metrics(arena: &mut Arena, spec: &Spec) -> Option<Metrics> {
     let [space, body] = &spec.metrics;
     let given = [matrix(arena, spec, space.as_ref())?, matrix(arena, spec, body.as_ref())?];

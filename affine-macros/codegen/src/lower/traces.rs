@@ -7,7 +7,7 @@ mod tape;
 
 use std::collections::BTreeMap;
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::potential::Base;
 use crate::spec::{Expression, ExpressionKind, MatrixName};
@@ -190,7 +190,7 @@ impl Tape<'_> {
     fn contracted(&mut self, [a, b]: [usize; 2]) -> Expr {
         let n = self.n;
         let mut sum = Vec::new();
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        for (i, j) in pairs(n) {
             let product = self.arena.mul(self.nodes[a].value[i][j], self.nodes[b].value[j][i]);
             sum.push((product, Rational::ONE));
         }
@@ -275,12 +275,12 @@ impl Tape<'_> {
     ) {
         let n = self.n;
         let before = open.remove(&place);
-        let mut entry = |a: usize, b: usize| {
+        let entry = |a: usize, b: usize| {
             let mut sum = vec![(slope[a][b], number.clone())];
             sum.extend(before.iter().map(|before| (before[a][b], Rational::ONE)));
             self.arena.linear(&sum)
         };
-        let sum = (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect();
+        let sum = table(n, entry);
         open.insert(place, sum);
     }
 
@@ -293,7 +293,7 @@ impl Tape<'_> {
         list: &mut Vec<(Expr, Expr)>,
     ) {
         let n = self.n;
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             let is_symmetric = matrix != MatrixName::Placement;
             let sum = match is_symmetric && a != b {
                 true if a > b => continue,

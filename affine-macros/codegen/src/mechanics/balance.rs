@@ -13,7 +13,7 @@ use super::charts::{Chart, Coordinate};
 use super::equations::{Load, System};
 use super::hamiltonian::Hamiltonian;
 use super::kinetics::Kinetics;
-use super::shared::{Shared, atoms};
+use super::shared::Shared;
 use super::term::Frame;
 
 /// Quantities of the internal motion: `K`, `phi_dot Pi + phi T_Pi`, `N`, and in the body `K_hat`, `T_Pi phi^-T - K_hat Oh^T`,
@@ -57,7 +57,7 @@ impl Laws {
         (kinetics, added, own): (&Kinetics, &[Load], Option<&Hamiltonian>),
         loads: &[Load],
     ) -> Self {
-        let (n, phi, pi) = (chart.dim, atoms(&chart.phi), atoms(&chart.m));
+        let (n, phi, pi) = (chart.dim, chart.phi.atoms(), chart.m.atoms());
         let mut inertial = System { shared: kinetics.shared.clone(), ..still(chart) };
         inertial.add(&kinetics.load());
         added.iter().for_each(|load| inertial.add(load));
@@ -65,7 +65,7 @@ impl Laws {
         loads.iter().for_each(|load| system.add(load));
         let kinetic = table(n, |a, i| rate(&inertial, Coordinate::M(a, i)));
         let mut shared = Shared { arena, list: Vec::new() };
-        let phi_dot = atoms(&kinetics.velocity);
+        let phi_dot = kinetics.velocity.atoms();
         let push = shared.matrix(Quantity::Load, &table(n, |a, i| rate(&system, Coordinate::M(a, i))));
         let inverse = shared.inverse(&phi);
         let upper = |shared: &mut Shared, of: Quantity, tensor: &Square<Polynomial>| {
@@ -84,7 +84,7 @@ impl Laws {
             None => product(&inverse, &phi_dot),
         };
         let omega_hat = shared.matrix(Quantity::ComovingAffineVelocity, &omega_hat);
-        let negative = |entry: &Polynomial| entry.scaled(&Rational::MINUS_ONE);
+        let negative = |entry: &Polynomial| entry.neg();
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {
             Vec::new()

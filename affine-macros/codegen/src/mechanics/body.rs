@@ -23,7 +23,6 @@ pub struct Body<'a> {
 
 impl Body<'_> {
     /// Does nothing act on it?
-    #[must_use]
     pub fn is_free(&self) -> bool {
         self.potential.is_none() && self.forces.is_empty()
     }

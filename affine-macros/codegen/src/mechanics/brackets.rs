@@ -9,9 +9,8 @@ use crate::algebra::{Expr, Polynomial, Rational};
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 
 /// `{a, b}` of two coordinates of a chart.
-#[must_use]
 pub fn bracket(chart: &Chart, a: Coordinate, b: Coordinate) -> Polynomial {
-    if a > b { ordered(chart, b, a).scaled(&Rational::MINUS_ONE) } else { ordered(chart, a, b) }
+    if a > b { ordered(chart, b, a).neg() } else { ordered(chart, a, b) }
 }
 
 /// `{a, b}` for `a` not after `b` in the order `x, phi, p, M`.
@@ -73,7 +72,6 @@ fn add(sum: &mut Polynomial, delta: bool, chart: &Chart, coordinate: Coordinate,
 }
 
 /// `{F, G}` of polynomials in the coordinates of a chart.
-#[must_use]
 pub fn poisson(chart: &Chart, f: &Polynomial, g: &Polynomial) -> Polynomial {
     let (df, dg) = (gradient(chart, f), gradient(chart, g));
     let mut sum = Polynomial::zero();
@@ -89,7 +87,6 @@ pub fn poisson(chart: &Chart, f: &Polynomial, g: &Polynomial) -> Polynomial {
 }
 
 /// The derivatives of `H` that do not vanish.
-#[must_use]
 pub fn gradient(chart: &Chart, h: &Polynomial) -> Vec<(Coordinate, Polynomial)> {
     let coordinates = chart.coordinates();
     let symbols: Vec<Expr> = coordinates.iter().map(|z| chart.symbol(*z)).collect();

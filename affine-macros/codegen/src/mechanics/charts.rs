@@ -1,6 +1,6 @@
 //! Charts of phase space: which momenta stand beside `x` and `phi`.
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
@@ -31,7 +31,6 @@ pub enum Linear {
 
 impl Linear {
     /// What it is in a state.
-    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Self::Space => Quantity::LinearMomentum,
@@ -42,6 +41,7 @@ impl Linear {
 
 /// Coordinates of phase space and their symbols.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Chart {
     /// Dimension of space.
     pub dim: usize,
@@ -78,7 +78,6 @@ pub enum Coordinate {
 
 impl Momentum {
     /// The affine spin of a frame.
-    #[must_use]
     pub fn of(frame: Frame) -> Self {
         match frame {
             Frame::Body => Momentum::Body,
@@ -88,7 +87,6 @@ impl Momentum {
     }
 
     /// What it is in a state.
-    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Momentum::Body => Quantity::ComovingAffineSpin,
@@ -99,7 +97,6 @@ impl Momentum {
     }
 
     /// The paper's symbol.
-    #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
             Momentum::Body => "Sigma_hat",
@@ -110,7 +107,6 @@ impl Momentum {
     }
 
     /// The conjugate velocity `(dH/dM)^T`.
-    #[must_use]
     pub fn velocity(self) -> Quantity {
         match self {
             Momentum::Body => Quantity::ComovingAffineVelocity,
@@ -135,25 +131,26 @@ impl Chart {
     }
 
     /// The same chart for a motion confined to a group: its affine momentum is projected.
-    #[must_use]
     pub fn under(self, confined: Option<Constraint>) -> Self {
         Self { confined, ..self }
     }
 
+    /// The symbols of its coordinates.
+    pub fn symbols(&self) -> Vec<Expr> {
+        self.coordinates().into_iter().map(|z| self.symbol(z)).collect()
+    }
+
     /// `phi` in its entries.
-    #[must_use]
     pub fn placement(&self) -> Square<Polynomial> {
-        self.phi.0.iter().map(|row| row.iter().map(|entry| Polynomial::atom(*entry)).collect()).collect()
+        self.phi.atoms()
     }
 
     /// Entries of the affine momentum that are linear in others, by those.
-    #[must_use]
     pub fn dependent(&self) -> Vec<(Expr, Polynomial)> {
         self.confined.map_or_else(Vec::new, |group| group.dependent(&self.m))
     }
 
     /// A polynomial in the entries of the affine momentum that determine the others.
-    #[must_use]
     pub fn reduced(&self, polynomial: &Polynomial) -> Polynomial {
         let dependent = self.dependent();
         polynomial.substitute(&|atom| {
@@ -162,7 +159,6 @@ impl Chart {
     }
 
     /// The coordinates that determine the others, group after group.
-    #[must_use]
     pub fn independent(&self) -> Vec<Coordinate> {
         let dependent = self.dependent();
         let mut all = self.coordinates();
@@ -171,10 +167,9 @@ impl Chart {
     }
 
     /// All coordinates, group after group.
-    #[must_use]
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let n = self.dim;
-        let pairs = || (0..n).flat_map(move |i| (0..n).map(move |j| (i, j)));
+        let pairs = || pairs(n);
         let mut all: Vec<Coordinate> = (0..self.x.len()).map(Coordinate::X).collect();
         all.extend(pairs().map(|(i, a)| Coordinate::Phi(i, a)));
         all.extend((0..self.p.len()).map(Coordinate::P));
@@ -183,7 +178,6 @@ impl Chart {
     }
 
     /// Symbol of a coordinate.
-    #[must_use]
     pub fn symbol(&self, coordinate: Coordinate) -> Expr {
         match coordinate {
             Coordinate::X(i) => self.x[i],

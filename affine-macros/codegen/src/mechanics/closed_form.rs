@@ -17,7 +17,6 @@ pub enum ClosedForm {
 
 impl ClosedForm {
     /// That of the geodesics of an energy.
-    #[must_use]
     pub fn of(h: &Hamiltonian) -> Option<Self> {
         match h.frame {
             // The multiplier of a constraint bends the line.
@@ -29,7 +28,6 @@ impl ClosedForm {
     }
 
     /// What a closed form leaves out: all integration, or that of motions with `p = 0`.
-    #[must_use]
     pub fn left_out(only_at_rest: bool) -> LeftOut {
         match only_at_rest {
             false => Scope::Model.without("integration: every motion has a closed form"),

@@ -27,6 +27,7 @@ pub(super) use momenta::Momenta;
 
 /// What stays what it is, of what a chart has, under everything that was looked at.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Conservation {
     /// The momenta, and functions of them, that are conserved as a whole.
     pub whole: Vec<Candidate>,
@@ -36,7 +37,6 @@ pub struct Conservation {
 
 impl Conservation {
     /// Everything that a chart with spatial `p` has, where nothing acts.
-    #[must_use]
     pub fn of(chart: &Chart) -> Self {
         let layout = Layout { dim: chart.dim, moves: chart.linear.is_some() };
         let whole = candidates(chart);
@@ -76,7 +76,6 @@ impl Conservation {
 
     /// The combinations of entries of momenta that are conserved besides, none of which follows from others or from momenta that
     /// are conserved as a whole.
-    #[must_use]
     pub fn components(&self, arena: &Arena) -> Vec<Vec<Entry>> {
         let chart = &self.chart;
         let values = |seed| {

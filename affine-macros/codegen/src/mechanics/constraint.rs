@@ -18,7 +18,6 @@ pub use crate::symbol::Constraint;
 
 impl Constraint {
     /// Name of the group.
-    #[must_use]
     pub fn group_name(self, n: usize) -> String {
         match self {
             Self::Isochoric => format!("SL({n})"),
@@ -28,7 +27,6 @@ impl Constraint {
     }
 
     /// Does `g` contain the invariant directions of this kind?
-    #[must_use]
     pub fn leaves_free(self, kind: Direction) -> bool {
         match self {
             Self::Isochoric => kind != Direction::Dilatation,
@@ -38,7 +36,6 @@ impl Constraint {
     }
 
     /// Dimension of `G`.
-    #[must_use]
     pub fn dimension(self, n: usize) -> usize {
         let rotations = n * (n - 1) / 2;
         match self {
@@ -50,7 +47,6 @@ impl Constraint {
 
     /// The form that a term has on `G`: with `phi^T phi = 1` is `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` and
     /// `|phi^-1 x_dot| = |x_dot|`; with `phi^T phi = D^2 1` the first has the [weight](super::weight) `D^2`.
-    #[must_use]
     pub fn form_of(self, kind: TermKind) -> TermKind {
         match (self, kind) {
             (Self::Rigid | Self::Conformal, TermKind::Dalembert) => TermKind::BodyInertia,
@@ -61,7 +57,6 @@ impl Constraint {
 
     /// `P X`: the traceless part, the skew part, or the skew part and the trace. Also the orthogonal projection of
     /// velocities on `g`.
-    #[must_use]
     pub fn projected<R: Ring>(self, m: &Square<R>) -> Square<R> {
         let half = Rational::HALF;
         let skew = || {
@@ -91,22 +86,19 @@ impl Constraint {
     }
 
     /// Are affine velocities and their momenta traceless?
-    #[must_use]
     pub fn is_traceless(self) -> bool {
         !self.leaves_free(Direction::Dilatation)
     }
 
     /// The entries of a matrix in the image of `P` that are linear in others, by those: the last of the diagonal; all
     /// below it, and the diagonal, or all but the first of it.
-    #[must_use]
     pub fn dependent(self, m: &Matrix) -> Vec<(Expr, Polynomial)> {
         let n = m.dim();
         let minus = |of: Expr| Polynomial::term(vec![of], Rational::MINUS_ONE);
         let mut list = Vec::new();
         match self {
             Self::Isochoric => {
-                let mut sum = Polynomial::zero();
-                (0..n - 1).for_each(|a| sum.add_scaled(&minus(m.0[a][a]), &Rational::ONE));
+                let sum: Polynomial = (0..n - 1).map(|a| minus(m.0[a][a])).sum();
                 list.push((m.0[n - 1][n - 1], sum));
             }
             Self::Rigid => list.extend((0..n).map(|a| (m.0[a][a], Polynomial::zero()))),
@@ -122,7 +114,6 @@ impl Constraint {
 
     /// Bases of `g`, one of which makes the form of an energy shortest: invariant directions, and where `g` has enough
     /// of them, single entries.
-    #[must_use]
     pub fn bases(self, n: usize, invariant: Vec<BasisVector>) -> Vec<Vec<BasisVector>> {
         let free: Vec<BasisVector> = invariant.into_iter().filter(|v| self.leaves_free(v.kind)).collect();
         if self != Self::Isochoric {

@@ -5,15 +5,15 @@
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, product, sum, table, transpose};
+use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
-use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::charts::{Chart, Linear, Momentum};
 use super::conserved::{Conservation, Momenta};
 use super::equations::Load;
 use super::group_point::{GroupPoint, inverse};
-use super::shared::{CentreVelocity, Shared, atoms, frame_of};
+use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
 use super::term::Frame;
 
 /// A field, or a function of the runtime, that computes a force or a potential.
@@ -126,22 +126,12 @@ impl Custom {
             }
             Role::Potential { class, moves } => self.slopes(&mut shared, chart, class, moves),
         };
-        let mut forces = Vec::new();
-        for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
-            let mut force = affine[a][b].clone();
-            if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
-                force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
-            }
-            forces.push((Coordinate::M(a, b), force));
-        }
         let centre = match chart.linear {
             // phi^T Q_tr
-            Some(Linear::Body) if !centre.is_empty() => {
-                crate::algebra::ring::times(&transpose(&atoms(&chart.phi)), &centre)
-            }
+            Some(Linear::Body) if !centre.is_empty() => times(&transpose(&chart.placement()), &centre),
             _ => centre,
         };
-        forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+        let forces = on_momenta(chart, &affine, centre);
         let work = work.map(|power| (shared.arena.symbol(Quantity::Work), power));
         Load { shared: shared.list, kernels: vec![kernel], forces, work }
     }
@@ -164,14 +154,12 @@ impl Custom {
         arguments.push(Group::Matrix(told.1));
         let mut centre = vec![Polynomial::zero(); chart.p.len()];
         let mut affine = zero;
-        let mut power = Polynomial::zero();
+        let power;
         let (name, results) = match on {
             On::Centre => {
                 let push = self.vector(shared.arena, n);
-                for (i, velocity) in x_dot.iter().enumerate() {
-                    centre[i] = Polynomial::atom(push[i]);
-                    power.add_product(&centre[i], velocity, &Rational::ONE);
-                }
+                centre = push.iter().take(x_dot.len()).map(|push| Polynomial::atom(*push)).collect();
+                power = dot(centre.iter().zip(&x_dot));
                 ("translational_force", Group::Vector(push))
             }
             On::Space | On::Body => {
@@ -180,11 +168,11 @@ impl Custom {
                     _ => (Frame::Body, "comoving_force"),
                 };
                 let symbols = self.matrix(shared.arena, Quantity::FieldForce, n);
-                let force = atoms(&symbols);
-                let phi = atoms(&chart.phi);
+                let force = symbols.atoms();
+                let phi = chart.placement();
                 if home == frame_of(chart) {
-                    let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity(), n));
-                    pair(&mut power, &force, &own);
+                    let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
+                    power = pair(&force, &own);
                     affine = force;
                 } else {
                     let push = match home {
@@ -192,7 +180,7 @@ impl Custom {
                         _ => product(&force, &shared.inverse(&phi)),
                     };
                     let push = shared.matrix(Quantity::FieldPush.at([self.place]), &push);
-                    pair(&mut power, &push, &phi_dot);
+                    power = pair(&push, &phi_dot);
                     affine = shared.on_own(chart, &push);
                 }
                 (name, Group::Matrix(symbols.0))
@@ -204,7 +192,6 @@ impl Custom {
     }
 
     /// The gravity of a homogeneous ellipsoid on itself.
-    #[must_use]
     pub fn self_gravity(place: usize, strength: Expr) -> Self {
         let role = Role::Potential { class: Class::Isotropic, moves: false };
         Self { place, name: "self_gravity".to_owned(), role, by: By::SelfGravity(strength) }
@@ -215,7 +202,7 @@ impl Custom {
         let n = chart.dim;
         let (along_x, along_phi) =
             (self.vector(shared.arena, n), self.matrix(shared.arena, Quantity::FieldSlope, n));
-        let opposite = self.by.unit(shared.arena).scaled(&Rational::MINUS_ONE);
+        let opposite = self.by.unit(shared.arena).neg();
         let negative = |symbol: &Expr| opposite.mul(&Polynomial::atom(*symbol));
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
         let affine = shared.on_own(chart, &push);
@@ -296,25 +283,21 @@ impl Custom {
     }
 
     /// Does the centre of mass move as without it, and need not be known to it?
-    #[must_use]
     pub fn leaves_the_centre(&self) -> bool {
         matches!(self.role, Role::Potential { moves: false, .. })
     }
 
     /// Can it push a centre of mass that is at rest?
-    #[must_use]
     pub fn pushes_from_rest(&self) -> bool {
         matches!(self.role, Role::Force { on: On::Centre, .. } | Role::Potential { moves: true, .. })
     }
 
     /// Does it look the same from every direction of space?
-    #[must_use]
     pub fn is_isotropic_in_space(&self) -> bool {
         matches!(self.role, Role::Potential { class, moves: false } if class.keeps_spin())
     }
 
     /// A potential that the squared vorticity (body) or spin (space) of `H` commutes with?
-    #[must_use]
     pub fn commutes_with_rotation(&self, frame: Frame) -> bool {
         match (self.role, frame) {
             (Role::Potential { class, .. }, Frame::Body) => class.keeps_vorticity(),
@@ -352,7 +335,7 @@ fn placed(arena: &mut Arena, chart: &Chart) -> Vec<Group<Polynomial>> {
     vec![
         Group::Scalar(Polynomial::atom(arena.symbol(Quantity::Time))),
         Group::Vector(or_zero(x, chart.dim)),
-        Group::Matrix(atoms(&chart.phi)),
+        Group::Matrix(chart.placement()),
     ]
 }
 
@@ -360,11 +343,7 @@ fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {
     if vector.is_empty() { vec![Polynomial::zero(); n] } else { vector }
 }
 
-/// Adds `tr(force velocity)`.
-fn pair(power: &mut Polynomial, force: &Square<Polynomial>, velocity: &Square<Polynomial>) {
-    for (a, row) in force.iter().enumerate() {
-        for (b, force) in row.iter().enumerate() {
-            power.add_product(force, &velocity[b][a], &Rational::ONE);
-        }
-    }
+/// `tr(force velocity)`.
+fn pair(force: &Square<Polynomial>, velocity: &Square<Polynomial>) -> Polynomial {
+    dot(pairs(force.len()).map(|(a, b)| (&force[a][b], &velocity[b][a])))
 }

@@ -6,16 +6,16 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
-use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::charts::{Chart, Linear};
 use super::equations::Load;
 use super::hessian::Hessian;
 use super::kinetic::Kinetic;
 use super::metrics::Metrics;
-use super::shared::{CentreVelocity, Shared, atoms, frame_of};
+use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
 use super::term::{Coefficient, Frame, Term};
 
 /// A dissipation function.
@@ -41,12 +41,7 @@ impl Part {
     /// `-(dR/dO)^T` at a velocity `o` of its frame, in the ring of the velocity.
     fn force(&self, o: &Square<Polynomial>) -> Square<Polynomial> {
         let flat = o.concat();
-        table(o.len(), |a, b| {
-            let mut force = Polynomial::zero();
-            let row = &self.hessian.matrix[b * o.len() + a];
-            row.iter().zip(&flat).for_each(|(h, o)| force.add_product(h, o, &Rational::MINUS_ONE));
-            force
-        })
+        table(o.len(), |a, b| dot(self.hessian.matrix[b * o.len() + a].iter().zip(&flat)).neg())
     }
 }
 
@@ -91,13 +86,11 @@ impl Dissipation {
     }
 
     /// What is left of it while the centre of mass is at rest.
-    #[must_use]
     pub fn at_rest(&self) -> Option<Self> {
         (!self.parts.is_empty()).then(|| Self { centre: Vec::new(), ..self.clone() })
     }
 
     /// Does it slow the centre of mass?
-    #[must_use]
     pub fn slows_the_centre(&self) -> bool {
         !self.centre.is_empty()
     }
@@ -107,15 +100,7 @@ impl Dissipation {
         let mut shared = Shared { arena, list: Vec::new() };
         let (affine, mut power) = self.affine_force(&mut shared, chart);
         let centre = self.centre_force(&mut shared, chart, velocity, &mut power);
-        let mut forces = Vec::new();
-        for (a, b) in (0..self.dim).flat_map(|a| (0..self.dim).map(move |b| (a, b))) {
-            let mut force = affine[a][b].clone();
-            if let (Momentum::Total, Some(push)) = (chart.momentum, centre.get(b)) {
-                force.add_product(&Polynomial::atom(chart.x[a]), push, &Rational::ONE);
-            }
-            forces.push((Coordinate::M(a, b), force));
-        }
-        forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+        let forces = on_momenta(chart, &affine, centre);
         let work = shared.arena.symbol(Quantity::Work);
         Load { shared: shared.list, kernels: Vec::new(), forces, work: Some((work, power)) }
     }
@@ -124,8 +109,8 @@ impl Dissipation {
     /// goes through `phi_dot` and the force `N` on `Pi`, so that `phi^-1` stands once on each way.
     fn affine_force(&self, shared: &mut Shared, chart: &Chart) -> (Square<Polynomial>, Polynomial) {
         let n = self.dim;
-        let phi = atoms(&chart.phi);
-        let own = atoms(&Matrix::symbols(shared.arena, chart.momentum.velocity(), n));
+        let phi = chart.placement();
+        let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
         let phi_dot = shared.phi_dot(chart);
         let zero = table(n, |_, _| Polynomial::zero());
         let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
@@ -144,9 +129,7 @@ impl Dissipation {
             };
             let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
             let drag = shared.matrix(drag(frame), &part.force(&velocity));
-            for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-                power.add_product(&drag[a][b], &velocity[b][a], &Rational::ONE);
-            }
+            power = power.add(&dot(pairs(n).map(|(a, b)| (&drag[a][b], &velocity[b][a]))));
             match frame {
                 _ if at_home => force = sum(&force, &drag),
                 Frame::Body => push = sum(&push, &product(&drag, &shared.inverse(&phi))),
@@ -176,7 +159,7 @@ impl Dissipation {
                 return self.drag_on_centre(shared, chart, (&x_dot, v_hat.as_deref()), power);
             }
         };
-        let phi = atoms(&chart.phi);
+        let phi = chart.placement();
         let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
         let p_hat = match linear {
             Linear::Body => p.clone(),
@@ -211,9 +194,7 @@ impl Dissipation {
             }
         }
         let force = shared.vector(Quantity::CentreDrag, &force);
-        for (force, velocity) in force.iter().zip(&velocity) {
-            power.add_product(force, velocity, &Rational::ONE);
-        }
+        *power = power.add(&dot(force.iter().zip(&velocity)));
         force
     }
 
@@ -229,7 +210,7 @@ impl Dissipation {
         for (frame, coefficient) in &self.centre {
             let slope = match frame {
                 Frame::Body => {
-                    let inverse = shared.inverse(&atoms(&chart.phi));
+                    let inverse = shared.inverse(&chart.placement());
                     let v_hat = match v_hat {
                         Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
                         None => shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, x_dot)),
@@ -243,9 +224,7 @@ impl Dissipation {
             }
         }
         let force = shared.vector(Quantity::CentreDrag, &force);
-        for (force, velocity) in force.iter().zip(x_dot) {
-            power.add_product(force, velocity, &Rational::ONE);
-        }
+        *power = power.add(&dot(force.iter().zip(x_dot)));
         force
     }
 }

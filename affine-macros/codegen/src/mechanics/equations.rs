@@ -9,6 +9,7 @@ use super::charts::{Chart, Coordinate};
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
 #[derive(Clone, Debug, Default)]
+#[must_use]
 pub struct System {
     /// Shared quantities, each a polynomial in coordinates and earlier ones.
     pub shared: Vec<(Expr, Polynomial)>,
@@ -22,6 +23,7 @@ pub struct System {
 
 /// What a potential, a dissipation or a force adds to a system.
 #[derive(Clone, Debug, Default)]
+#[must_use]
 pub struct Load {
     /// Quantities that the forces share.
     pub shared: Vec<(Expr, Polynomial)>,
@@ -68,7 +70,6 @@ impl System {
     }
 
     /// Replaces atoms by polynomials in every definition and every rate.
-    #[must_use]
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
         self.mapped(&mut |p| p.substitute(value))
     }
@@ -104,7 +105,6 @@ impl System {
     }
 
     /// Drops shared quantities and calls that nothing uses, and puts in place those that are a single constant or atom.
-    #[must_use]
     pub fn tidied(mut self, arena: &Arena) -> Self {
         let trivial: Vec<(Expr, Polynomial)> = self
             .shared
@@ -155,7 +155,6 @@ impl System {
     }
 
     /// The number of definitions, arguments and rates that use a symbol.
-    #[must_use]
     pub fn mentions(&self, arena: &Arena, symbol: Expr) -> usize {
         self.polynomials().filter(|p| p.any_symbol(arena, &mut |s| s == symbol)).count()
     }

@@ -27,13 +27,11 @@ pub struct Forces {
 
 impl Forces {
     /// Are there none?
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.dissipation.is_none() && self.customs.is_empty()
     }
 
     /// Does any change the energy?
-    #[must_use]
     pub fn do_work(&self) -> bool {
         let works = |custom: &Custom| matches!(custom.role, Role::Force { gyroscopic: false, .. });
         self.dissipation.is_some() || self.customs.iter().any(works)
@@ -67,21 +65,18 @@ impl Forces {
     }
 
     /// Those that act where `p = 0`.
-    #[must_use]
     pub fn at_rest(&self) -> Self {
         let dissipation = self.dissipation.as_ref().and_then(Dissipation::at_rest);
         Self { dissipation, ..self.clone() }
     }
 
     /// Does none act on the centre of mass?
-    #[must_use]
     pub fn leave_the_centre(&self) -> bool {
         self.dissipation.as_ref().is_none_or(|dissipation| !dissipation.slows_the_centre())
             && self.customs.iter().all(Custom::leaves_the_centre)
     }
 
     /// Can any push a centre of mass that is at rest?
-    #[must_use]
     pub fn push_from_rest(&self) -> bool {
         self.customs.iter().any(Custom::pushes_from_rest)
     }
@@ -93,14 +88,12 @@ impl Forces {
     }
 
     /// Do they look the same from every direction of space?
-    #[must_use]
     pub fn are_isotropic_in_space(&self) -> bool {
         self.dissipation.as_ref().is_none_or(Dissipation::is_isotropic_in_space)
             && self.customs.iter().all(Custom::is_isotropic_in_space)
     }
 
     /// May the squared vorticity or spin of `H` be applied apart from the rest?
-    #[must_use]
     pub fn commute_with_rotation(&self, chart: &Chart, h: &Hamiltonian, iso: &Isotropic) -> bool {
         self.dissipation.as_ref().is_none_or(|dissipation| dissipation.commutes_with_rotation(chart, h, iso))
             && self.customs.iter().all(|custom| custom.commutes_with_rotation(h.frame))

@@ -1,8 +1,8 @@
 //! What the equations of a model are derived from: the kinetic energy as a quadratic form, the potential, the forces.
 
 use crate::algebra::Arena;
+use crate::symbol::Asked;
 
-use super::asked::Asked;
 use super::forces::Forces;
 use super::hessian::Hessian;
 use super::kinetic::Kinetic;
@@ -52,7 +52,6 @@ pub enum Mass {
 
 impl Mass {
     /// The constant one.
-    #[must_use]
     pub fn constant(&self) -> Option<&Hessian> {
         match self {
             Self::Constant(hessian) => Some(hessian),

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, adjugate, product, table};
+use crate::algebra::ring::{Ring, Square, adjugate, determinant, product, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -151,14 +151,6 @@ impl GroupPoint {
 /// The inverse matrix.
 pub(super) fn inverse(m: &Square<Residue>) -> Square<Residue> {
     scaled(&adjugate(m), determinant(m).recip().unwrap_or(Residue::UNKNOWN))
-}
-
-fn determinant(m: &Square<Residue>) -> Residue {
-    let mut sum = Residue::ZERO;
-    for (entry, row) in m[0].iter().zip(adjugate(m)) {
-        sum.plus_product(entry, &row[0], &Rational::ONE);
-    }
-    sum
 }
 
 fn inverse_determinant(m: &Square<Residue>) -> Residue {

@@ -1,5 +1,6 @@
 //! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
 
+use crate::algebra::ring::{above_diagonal, dot, pairs, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -14,6 +15,7 @@ use super::weight::Weight;
 
 /// The kinetic Hamiltonian in pieces.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Hamiltonian {
     /// Dimension of space.
     pub dim: usize,
@@ -37,6 +39,7 @@ pub struct Hamiltonian {
 
 /// Coefficients of an isotropic Hamiltonian, (4.24).
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Isotropic {
     /// `1/alpha`, of `C(2)/2`.
     pub casimir2: Polynomial,
@@ -57,11 +60,7 @@ impl Hamiltonian {
         // X = (dT/dO)^T: the momentum conjugate to O_ab is X_ba.
         let conjugate: Vec<Expr> = momentum.transpose().0.into_iter().flatten().collect();
         let linear_form = |row: &Vec<Polynomial>| {
-            let mut sum = Polynomial::zero();
-            for (c, x) in row.iter().zip(&conjugate) {
-                sum.add_product(c, &Polynomial::atom(*x), &Rational::ONE);
-            }
-            sum
+            row.iter().zip(&conjugate).map(|(c, x)| c.mul(&Polynomial::atom(*x))).sum()
         };
         let mut flat: Vec<Polynomial> = inverse.matrix.iter().map(linear_form).collect();
         let weight = Weight::of(arena, kinetic);
@@ -70,10 +69,7 @@ impl Hamiltonian {
         }
         let translation = match kinetic.translation {
             None => None,
-            Some(t) => {
-                let reciprocal = arena.pow(t.mass, -1)?;
-                Some((t.frame, Polynomial::normal_form(arena, reciprocal)))
-            }
+            Some(t) => Some((t.frame, Polynomial::reciprocal(arena, t.mass)?)),
         };
         Some(Self {
             dim: n,
@@ -95,27 +91,17 @@ impl Hamiltonian {
     }
 
     /// `1/2 tr(X O(X))` in the frame's own affine spin, for a quadratic form; `H_int` itself with `C(3)`.
-    #[must_use]
     pub fn internal(&self) -> Polynomial {
         if let Some(iso) = self.isotropic.as_ref().filter(|iso| !iso.casimir3.is_zero()) {
-            let spin = self.momentum.0.iter();
-            let spin: Vec<Vec<Polynomial>> =
-                spin.map(|row| row.iter().map(|x| Polynomial::atom(*x)).collect()).collect();
-            return iso.energy(&spin);
+            return iso.energy(&self.momentum.atoms());
         }
-        let mut sum = Polynomial::zero();
-        for (a, row) in self.velocity.iter().enumerate() {
-            for (b, o) in row.iter().enumerate() {
-                let x = Polynomial::atom(self.momentum.0[b][a]);
-                sum.add_product(&x, o, &Rational::HALF);
-            }
-        }
-        sum
+        let product =
+            |(a, b): (usize, usize)| Polynomial::atom(self.momentum.0[b][a]).mul(&self.velocity[a][b]);
+        pairs(self.dim).map(product).sum::<Polynomial>().scaled(&Rational::HALF)
     }
 
     /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
-    #[must_use]
     pub fn is_tensor(&self) -> bool {
         // The few momenta of a rigid or conformal motion make short equations whatever their coefficients.
         let small = matches!(self.constraint, Some(Constraint::Rigid | Constraint::Conformal));
@@ -123,13 +109,11 @@ impl Hamiltonian {
     }
 
     /// What defines the weight of the internal energy, if it has one.
-    #[must_use]
     pub fn weight_definitions(&self) -> Definitions {
         self.weight.as_ref().map_or_else(Definitions::new, |weight| weight.definitions.clone())
     }
 
     /// How the velocity of the centre of mass follows.
-    #[must_use]
     pub fn centre_velocity(&self) -> CentreVelocity {
         match &self.translation {
             None => CentreVelocity::Fixed,
@@ -140,7 +124,6 @@ impl Hamiltonian {
     /// The internal energy in a chart, with its skew part (of isotropic energies) left out on request; `None`
     /// where it is not a polynomial there, and for `I(O)` where that is not conserved: `Sigma = I(O) - x p^T` only
     /// makes it longer.
-    #[must_use]
     pub fn internal_in(&self, chart: &Chart, without_skew: bool) -> Option<Polynomial> {
         match &self.isotropic {
             Some(iso) if without_skew || iso.skew.is_zero() => {
@@ -152,15 +135,11 @@ impl Hamiltonian {
     }
 
     /// `H` in a chart of the model's own frame.
-    #[must_use]
     pub fn energy_in(&self, chart: &Chart) -> Polynomial {
-        let mut sum = self.internal();
-        sum.add_scaled(&self.translation_in(chart), &Rational::ONE);
-        sum
+        self.internal().add(&self.translation_in(chart))
     }
 
     /// The affine momenta in which it is a polynomial, each for one frame.
-    #[must_use]
     pub fn momenta(&self) -> Vec<Momentum> {
         match self.isotropic {
             Some(_) => vec![Momentum::of(self.frame), Momentum::Body, Momentum::Space],
@@ -169,112 +148,69 @@ impl Hamiltonian {
     }
 
     /// The translational energy in a chart.
-    #[must_use]
     pub fn translation_in(&self, chart: &Chart) -> Polynomial {
         let Some((frame, inverse_mass)) = &self.translation else { return Polynomial::zero() };
         let squares = match (frame, chart.linear) {
             (Frame::Body, Some(Linear::Space)) => comoving(chart),
             _ => chart.p.iter().map(|p| Polynomial::atom(*p)).collect(),
         };
-        let mut sum = Polynomial::zero();
-        for p in &squares {
-            sum.add_product(&p.mul(p), inverse_mass, &Rational::HALF);
-        }
-        sum
+        squares.iter().map(|p| p.mul(p).mul(inverse_mass).scaled(&Rational::HALF)).sum()
     }
 }
 
 impl Isotropic {
     /// `H = 0`.
-    #[must_use]
     pub fn zero() -> Self {
         let [casimir2, casimir1_squared, skew, casimir3] = std::array::from_fn(|_| Polynomial::zero());
         Self { casimir2, casimir1_squared, skew, casimir3 }
     }
 
     /// `H` of an affine spin.
-    #[must_use]
     pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let mut sum = self.casimirs(spin);
-        sum.add_scaled(&self.skew_norm(spin), &Rational::ONE);
-        sum
+        self.casimirs(spin).add(&self.skew_norm(spin))
     }
 
     /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
-    #[must_use]
     pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let (mut c1, mut c2) = (Polynomial::zero(), Polynomial::zero());
-        for (a, row) in spin.iter().enumerate() {
-            c1.add_scaled(&row[a], &Rational::ONE);
-            for (b, value) in row.iter().enumerate() {
-                c2.add_product(value, &spin[b][a], &Rational::ONE);
-            }
-        }
-        let mut sum = Polynomial::zero();
-        sum.add_product(&c2, &self.casimir2, &Rational::HALF);
-        sum.add_product(&c1.mul(&c1), &self.casimir1_squared, &Rational::HALF);
+        let c1: Polynomial = spin.iter().enumerate().map(|(a, row)| &row[a]).sum();
+        let c2 = dot(pairs(spin.len()).map(|(a, b)| (&spin[a][b], &spin[b][a])));
+        let mut sum = c2.mul(&self.casimir2).add(&c1.mul(&c1).mul(&self.casimir1_squared));
+        sum = sum.scaled(&Rational::HALF);
         if !self.casimir3.is_zero() {
-            let third = Rational::THIRD;
-            sum.add_product(&cubed_trace(spin), &self.casimir3, &third);
+            sum.add_product(&cubed_trace(spin), &self.casimir3, &Rational::THIRD);
         }
         sum
     }
 
     /// `|W|^2/(2 mu)` of an affine spin.
-    #[must_use]
     pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let mut norm = Polynomial::zero();
-        for a in 0..spin.len() {
-            for b in a + 1..spin.len() {
-                let mut w = spin[a][b].clone();
-                w.add_scaled(&spin[b][a], &Rational::MINUS_ONE);
-                norm.add_product(&w, &w, &Rational::HALF);
-            }
-        }
-        norm.mul(&self.skew)
+        let squares = above_diagonal(spin.len()).map(|(a, b)| spin[a][b].sub(&spin[b][a])).map(|w| w.mul(&w));
+        squares.sum::<Polynomial>().mul(&self.skew).scaled(&Rational::HALF)
     }
 }
 
 /// `tr X^3`.
 fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
     let n = spin.len();
-    let mut trace = Polynomial::zero();
-    for (a, b, c) in (0..n).flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c)))) {
-        trace.add_product(&spin[a][b].mul(&spin[b][c]), &spin[c][a], &Rational::ONE);
-    }
-    trace
+    (0..n)
+        .flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c))))
+        .map(|(a, b, c)| spin[a][b].mul(&spin[b][c]).mul(&spin[c][a]))
+        .sum()
 }
 
 /// `p_hat = phi^T p`.
 fn comoving(chart: &Chart) -> Vec<Polynomial> {
-    (0..chart.dim)
-        .map(|a| {
-            let mut sum = Polynomial::zero();
-            for (i, p) in chart.p.iter().enumerate() {
-                sum.add_term(vec![chart.phi.0[i][a], *p], &Rational::ONE);
-            }
-            sum
-        })
-        .collect()
+    let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
+    times(&transpose(&chart.placement()), &p)
 }
 
 /// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.
-#[must_use]
 pub fn spatial_or_own(chart: &Chart) -> Vec<Vec<Polynomial>> {
     let orbital = chart.momentum == Momentum::Total;
-    (0..chart.dim)
-        .map(|i| {
-            (0..chart.dim)
-                .map(|j| {
-                    let mut entry = Polynomial::atom(chart.m.0[i][j]);
-                    if orbital {
-                        entry.add_term(vec![chart.x[i], chart.p[j]], &Rational::MINUS_ONE);
-                    }
-                    entry
-                })
-                .collect()
-        })
-        .collect()
+    table(chart.dim, |i, j| {
+        let own = Polynomial::atom(chart.m.0[i][j]);
+        if orbital { own.sub(&Polynomial::monomial([chart.x[i], chart.p[j]])) } else { own }
+    })
 }
 
 /// The isotropic coefficients, where shear, rotation and dilatation each have one eigenvalue, or are not free.
@@ -298,22 +234,17 @@ fn isotropic(
             found = Some(eigenvalue);
         }
         let value = found?.expression(arena);
-        let reciprocal = arena.pow(value, -1)?;
-        Some(Polynomial::normal_form(arena, reciprocal))
+        Polynomial::reciprocal(arena, value)
     };
     let shear = common(Direction::Shear)?;
     let rotation = common(Direction::Rotation)?;
     let dilatation = common(Direction::Dilatation)?;
     // H = |shear|^2/(2 shear) + |skew|^2/(2 rotation) + (tr)^2/(2 n dilatation), rewritten by
     // C(2) = |symmetric|^2 - |skew|^2 and |W|^2 = 2 |skew|^2 (sum over all entries on the right).
-    let mut casimir1_squared = dilatation;
-    casimir1_squared.add_scaled(&shear, &Rational::MINUS_ONE);
-    let nth = Rational::one_over(n);
-    let mut skew = shear.clone();
-    skew.add_scaled(&rotation, &Rational::ONE);
+    let (casimir1_squared, skew) = (dilatation.sub(&shear), shear.add(&rotation));
     Some(Isotropic {
         casimir2: shear,
-        casimir1_squared: casimir1_squared.scaled(&nth),
+        casimir1_squared: casimir1_squared.scaled(&Rational::one_over(n)),
         skew: skew.scaled(&Rational::HALF),
         casimir3: Polynomial::zero(),
     })

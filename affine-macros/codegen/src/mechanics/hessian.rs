@@ -2,6 +2,7 @@
 
 use crate::algebra::fault::never_missing;
 use crate::algebra::linear::{self, Inertia};
+use crate::algebra::ring::{Square, components, pairing, pairs, table};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -37,20 +38,17 @@ pub struct Block {
 
 impl Block {
     /// The eigenvalue of a block of size one, with respect to the norm `tr(O O^T)`.
-    #[must_use]
     pub fn eigenvalue(&self) -> Option<Polynomial> {
         let [square] = self.squares.as_slice() else { return None };
         Some(self.form[0][0].scaled(&square.recip()?))
     }
 
     /// The form as numbers, if it is numeric.
-    #[must_use]
     pub fn numbers(&self) -> Option<linear::Square> {
         self.form.iter().map(|row| row.iter().map(Polynomial::as_constant).collect()).collect()
     }
 
     /// Inertia of a numeric block, its kernel as an affine velocity of `n^2` entries.
-    #[must_use]
     pub fn inertia(&self, dim: usize) -> Option<Inertia> {
         let mut inertia = linear::inertia(&self.numbers()?);
         inertia.kernel = inertia.kernel.map(|kernel| self.velocity(dim, &kernel));
@@ -58,7 +56,6 @@ impl Block {
     }
 
     /// The affine velocity of `n^2` entries with these components in the basis.
-    #[must_use]
     pub fn velocity(&self, dim: usize, components: &[Rational]) -> Vec<Rational> {
         let mut direction = vec![Rational::ZERO; dim * dim];
         for (weight, velocity) in components.iter().zip(&self.velocities) {
@@ -89,21 +86,15 @@ impl Block {
     }
 
     /// The value of the form at these components, if it is numeric.
-    #[must_use]
     pub fn square(&self, components: &[Rational]) -> Option<Rational> {
-        let mut sum = Rational::ZERO;
-        for (row, left) in self.numbers()?.iter().zip(components) {
-            for (value, right) in row.iter().zip(components) {
-                sum = &sum + &(&(left * right) * value);
-            }
-        }
-        Some(sum)
+        let numbers = self.numbers()?;
+        let term = |(k, l): (usize, usize)| &(&components[k] * &components[l]) * &numbers[k][l];
+        Some(pairs(numbers.len()).map(term).fold(Rational::ZERO, |sum, term| &sum + &term))
     }
 }
 
 impl Hessian {
     /// The eigenvalues that decide whether a model with fields is well posed: condition, reason, value.
-    #[must_use]
     pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
         let mut list: Vec<(Direction, Polynomial)> = Vec::new();
         for block in &self.blocks {
@@ -118,20 +109,18 @@ impl Hessian {
     }
 
     /// Is the energy zero for all velocities that are free?
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.blocks.iter().flat_map(|block| block.form.concat()).all(|entry| entry.is_zero())
     }
 
     /// The Hessian of the internal energy.
-    #[must_use]
     pub fn new(kinetic: &Kinetic) -> Self {
         let matrix = kinetic.form();
         let bases = match kinetic.confined() {
             None => vec![entries(kinetic.dim.pow(2)), invariant(kinetic.dim)],
             Some(group) => group.bases(kinetic.dim, invariant(kinetic.dim)),
         };
-        let blocks = bases.into_iter().map(|basis| blocks(&matrix, basis));
+        let blocks = bases.into_iter().map(|basis| blocks(&matrix, &basis));
         let blocks = blocks
             // Work of inverting; the invariant directions win a tie, since they name the eigenvalues, but not where
             // numbers are left to tell: in entries their eigenvalues are those of T.
@@ -163,7 +152,7 @@ impl Hessian {
         }
         let slopes = congruent.energy.gradient(&velocities);
         let form: Vec<Vec<Polynomial>> = slopes.iter().map(|slope| slope.gradient(&velocities)).collect();
-        let mut blocks = blocks(&form, entries(form.len()));
+        let mut blocks = blocks(&form, &entries(form.len()));
         for block in &mut blocks {
             let places = block.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k);
             let places: Vec<usize> = places.collect();
@@ -234,17 +223,16 @@ impl Inverse {
         }
         if let [row] = block.form.as_slice() {
             let value = row[0].expression(arena);
-            let reciprocal = arena.pow(value, -1)?;
-            return Some(vec![vec![Polynomial::normal_form(arena, reciprocal)]]);
+            return Some(vec![vec![Polynomial::reciprocal(arena, value)?]]);
         }
         if let Some(known) = self.numeric_blocks.iter().find(|known| known.form == block.form) {
             return Some(known.as_atoms());
         }
         let b = self.numeric_blocks.len() + 1;
         let size = block.form.len();
-        let mut symbol =
+        let symbol =
             |i: usize, j: usize| arena.symbol(Quantity::InverseBlock.at([b, i.min(j) + 1, i.max(j) + 1]));
-        let inverse: Vec<Vec<Expr>> = (0..size).map(|i| (0..size).map(|j| symbol(i, j)).collect()).collect();
+        let inverse: Vec<Vec<Expr>> = table(size, symbol);
         self.numeric_blocks.push(NumericBlock {
             basis: block.velocities.clone(),
             form: block.form.clone(),
@@ -255,40 +243,16 @@ impl Inverse {
 }
 
 /// The form in a basis, cut into its connected components.
-pub(super) fn blocks(matrix: &[Vec<Polynomial>], basis: Vec<BasisVector>) -> Vec<Block> {
-    let form: Vec<Vec<Polynomial>> =
-        basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
-    let mut component: Vec<usize> = (0..basis.len()).collect();
-    for i in 0..basis.len() {
-        for j in 0..i {
-            if !form[i][j].is_zero() && component[i] != component[j] {
-                let (keep, drop) = (component[j].min(component[i]), component[j].max(component[i]));
-                component.iter_mut().filter(|c| **c == drop).for_each(|c| *c = keep);
-            }
-        }
-    }
-    (0..basis.len())
-        .filter_map(|root| {
-            let members: Vec<usize> = (0..basis.len()).filter(|i| component[*i] == root).collect();
-            (!members.is_empty()).then(|| Block {
-                squares: members.iter().map(|i| basis[*i].square()).collect(),
-                velocities: members.iter().map(|i| basis[*i].entries.clone()).collect(),
-                basis: members.iter().map(|i| basis[*i].clone()).collect(),
-                form: members
-                    .iter()
-                    .map(|i| members.iter().map(|j| form[*i][*j].clone()).collect())
-                    .collect(),
-            })
-        })
-        .collect()
-}
-
-fn pairing(matrix: &[Vec<Polynomial>], a: &BasisVector, b: &BasisVector) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (k, wk) in &a.entries {
-        for (l, wl) in &b.entries {
-            sum.add_scaled(&matrix[*k][*l], &(wk * wl));
-        }
-    }
-    sum
+pub(super) fn blocks(matrix: &Square<Polynomial>, basis: &[BasisVector]) -> Vec<Block> {
+    let form: Vec<Vec<Polynomial>> = basis
+        .iter()
+        .map(|a| basis.iter().map(|b| pairing(matrix, &a.entries, &b.entries)).collect())
+        .collect();
+    let block = |members: Vec<usize>| Block {
+        squares: members.iter().map(|i| basis[*i].square()).collect(),
+        velocities: members.iter().map(|i| basis[*i].entries.clone()).collect(),
+        basis: members.iter().map(|i| basis[*i].clone()).collect(),
+        form: members.iter().map(|i| members.iter().map(|j| form[*i][*j].clone()).collect()).collect(),
+    };
+    components(&form).into_iter().map(block).collect()
 }

@@ -1,6 +1,6 @@
 //! The kinetic energy, term by term, in the velocity of its frame.
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
@@ -42,7 +42,6 @@ pub struct Translation {
 impl Kinetic {
     /// Is the energy that of positive masses alone, `1/2 tr(phi_dot J phi_dot^T)` (2.1)? Every other one may be
     /// indefinite.
-    #[must_use]
     pub fn is_dalembert(&self) -> bool {
         self.frame == Frame::Flat
             && !self.terms.is_empty()
@@ -54,7 +53,6 @@ impl Kinetic {
 
     /// Has the internal energy the [weight](super::weight) `D^2`? No term in an affine velocity stands beside it then: they
     /// have no common frame.
-    #[must_use]
     pub fn is_weighted(&self) -> bool {
         self.constraint == Some(Constraint::Conformal)
             && self.terms.iter().any(|term| term.kind == TermKind::Dalembert)
@@ -62,7 +60,6 @@ impl Kinetic {
 
     /// The constraint, where velocities and momenta are projected for it. With `phi_dot` and `Pi` they are not, since
     /// the tangent space turns with `phi`: there it acts through its multiplier.
-    #[must_use]
     pub fn confined(&self) -> Option<Constraint> {
         self.constraint.filter(|_| self.frame != Frame::Flat)
     }
@@ -136,15 +133,11 @@ impl Kinetic {
     }
 
     /// The internal energy `T_int`.
-    #[must_use]
     pub fn internal_energy(&self) -> Polynomial {
-        let mut sum = Polynomial::zero();
-        self.internal.iter().for_each(|(_, energy)| sum.add_scaled(energy, &Rational::ONE));
-        sum
+        self.internal.iter().map(|(_, energy)| energy).sum()
     }
 
     /// `d^2 T_int / dO_k dO_l` on the entries of the velocity, row-major.
-    #[must_use]
     pub fn form(&self) -> Square<Polynomial> {
         let velocities = self.velocity.0.concat();
         let slopes = self.internal_energy().gradient(&velocities);
@@ -172,10 +165,10 @@ fn common(
 fn internal_energy(arena: &mut Arena, o: &Matrix, term: &Term) -> Polynomial {
     let n = o.dim();
     let half = Rational::HALF;
-    let pairs = || (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+    let pairs = || pairs(n);
     let mut energy = Polynomial::zero();
     let mut add = |left: Expr, coefficient: &Polynomial, right: Expr| {
-        energy.add_product(coefficient, &Polynomial::term(vec![left, right], Rational::ONE), &half);
+        energy.add_product(coefficient, &Polynomial::monomial([left, right]), &half);
     };
     match &term.value {
         Coefficient::Scalar(c) => {

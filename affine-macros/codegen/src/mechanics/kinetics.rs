@@ -11,8 +11,8 @@ mod action;
 mod lagrangian;
 mod ways;
 
-use crate::algebra::ring::{Square, table};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::{Arena, Matrix, Polynomial};
 
 use super::brackets::{bracket, gradient};
 use super::charts::{Chart, Coordinate, Momentum};
@@ -23,6 +23,7 @@ pub use lagrangian::{Lagrangian, Part, named};
 
 /// An energy in a chart, as far as its motion depends on it.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Kinetics {
     /// The chart.
     pub chart: Chart,
@@ -53,13 +54,11 @@ impl Kinetics {
     }
 
     /// The same energy in a chart that has a spatial `p` besides.
-    #[must_use]
     pub fn beside(&self, chart: &Chart) -> Self {
         Self { chart: chart.clone(), ..self.clone() }
     }
 
     /// The affine velocity in a form.
-    #[must_use]
     pub fn affine_velocity(&self, form: Form) -> Square<Polynomial> {
         let written = |a: usize, b: usize| match form {
             Form::ThroughVelocity => Polynomial::atom(self.velocity.0[a][b]),
@@ -72,23 +71,17 @@ impl Kinetics {
     }
 
     /// `dz/dt`.
-    #[must_use]
     pub fn rate(&self, form: Form, z: Coordinate) -> Polynomial {
         let slope = |(y, slope): &(Coordinate, Polynomial)| match (form, *y) {
             (Form::ThroughVelocity, Coordinate::M(a, b)) => (*y, Polynomial::atom(self.velocity.0[b][a])),
             _ => (*y, slope.clone()),
         };
         let slopes: Vec<_> = self.slopes.iter().map(slope).collect();
-        let mut sum = paired(&self.chart, z, &slopes);
-        self.forces
-            .iter()
-            .filter(|(y, _)| *y == z)
-            .for_each(|(_, force)| sum.add_scaled(force, &Rational::ONE));
-        sum
+        let forces = self.forces.iter().filter(|(y, _)| *y == z).map(|(_, force)| force);
+        paired(&self.chart, z, &slopes).add(&forces.sum())
     }
 
     /// Hamilton's equations of all coordinates: placement through the velocity, momenta in the given form.
-    #[must_use]
     pub fn system(&self, momenta: Form) -> System {
         let rate = |z: Coordinate| {
             let form = match z {
@@ -108,7 +101,6 @@ impl Kinetics {
     }
 
     /// What it adds to the equations of another energy in the same chart, before any projection.
-    #[must_use]
     pub fn load(&self) -> Load {
         let rate = |z: Coordinate| (z, self.rate(Form::ThroughVelocity, z));
         let forces = self.chart.coordinates().into_iter().map(rate).filter(|(_, rate)| !rate.is_zero());
@@ -118,16 +110,5 @@ impl Kinetics {
 
 /// `sum over y of {z, y} slope_y`.
 fn paired(chart: &Chart, z: Coordinate, slopes: &[(Coordinate, Polynomial)]) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (y, slope) in slopes {
-        let zy = bracket(chart, z, *y);
-        if !zy.is_zero() {
-            sum.add_product(&zy, slope, &Rational::ONE);
-        }
-    }
-    sum
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
+    slopes.iter().map(|(y, slope)| bracket(chart, z, *y).mul(slope)).sum()
 }

@@ -39,7 +39,6 @@ pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forc
 impl Load {
     /// The same for a motion confined to a group: of the forces on the affine momentum the part that acts on its Lie
     /// algebra, and entries of momentum and velocity that are linear in others written through those.
-    #[must_use]
     pub fn confined(self, arena: &mut Arena, chart: &Chart, group: Constraint) -> Self {
         let on_spin = |a, b| {
             let found = self.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));

@@ -1,7 +1,7 @@
 //! Quantities with their definitions, and those of `phi^-1`.
 
-use crate::algebra::ring::{Square, adjugate, table};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, adjugate, determinant, table};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::symbol::Quantity;
 
 /// Quantities with their definitions, each in earlier ones.
@@ -14,13 +14,10 @@ pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions)
     let (det, inverse_det) =
         (arena.symbol(Quantity::Determinant), arena.symbol(Quantity::InverseDeterminant));
     let cofactors = adjugate(&phi);
-    let mut determinant = Polynomial::zero();
-    for (entry, row) in phi[0].iter().zip(&cofactors) {
-        determinant.add_product(entry, &row[0], &Rational::ONE);
-    }
+
     // A symbol is not the number zero.
     let reciprocal = Polynomial::atom(arena.reciprocal(det));
-    let mut shared = vec![(det, determinant), (inverse_det, reciprocal)];
+    let mut shared = vec![(det, determinant(&phi)), (inverse_det, reciprocal)];
     let inverse = Matrix::symbols(arena, Quantity::InversePlacement, dim);
     for (symbol, cofactor) in inverse.0.iter().flatten().zip(cofactors.iter().flatten()) {
         shared.push((*symbol, cofactor.mul(&Polynomial::atom(inverse_det))));

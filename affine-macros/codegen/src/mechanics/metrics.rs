@@ -4,6 +4,7 @@ mod axes;
 mod congruent;
 mod forms;
 
+use crate::algebra::ring::table;
 use crate::algebra::root::root;
 use crate::algebra::{Expr, Rational};
 
@@ -43,7 +44,6 @@ pub struct Factor {
 
 impl Bases {
     /// The change of bases; `None` where both metrics are the identity, or one is not positive definite.
-    #[must_use]
     pub fn new(space: &[Vec<Rational>], body: &[Vec<Rational>]) -> Option<Self> {
         if is_identity(space) && is_identity(body) {
             return None;
@@ -59,9 +59,7 @@ impl Factor {
         let roots: Vec<Rational> = axes.squares.iter().map(root).collect::<Option<_>>()?;
         let reciprocals: Vec<Rational> = roots.iter().map(Rational::recip).collect::<Option<_>>()?;
         let n = roots.len();
-        let scaled = |entry: &dyn Fn(usize, usize) -> Rational| -> Vec<Vec<Rational>> {
-            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
-        };
+        let scaled = |entry: &dyn Fn(usize, usize) -> Rational| -> Vec<Vec<Rational>> { table(n, entry) };
         let matrix = scaled(&|i, j| &axes.matrix[i][j] * &roots[i]);
         let inverse = scaled(&|i, j| &axes.inverse[i][j] * &reciprocals[j]);
         Some(Self { matrix, inverse, axes })

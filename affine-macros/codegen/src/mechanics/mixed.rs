@@ -85,7 +85,6 @@ impl Mixed {
     }
 
     /// All energies.
-    #[must_use]
     pub fn parts(&self) -> Vec<Kinetic> {
         [self.internal.clone(), self.translations.clone()].concat()
     }

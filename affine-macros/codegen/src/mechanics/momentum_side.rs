@@ -1,6 +1,6 @@
 //! A Hamiltonian as stated on the momentum side, and the kinetic energy that belongs to it.
 
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
 use super::direction::Direction;
@@ -26,7 +26,6 @@ pub struct Stated {
 
 impl Stated {
     /// The sum of the internal terms.
-    #[must_use]
     pub fn invariants(&self) -> Isotropic {
         let mut sum = Isotropic::zero();
         for (_, part) in &self.parts {
@@ -39,13 +38,11 @@ impl Stated {
     }
 
     /// Is there a cubic term? Then the velocity is quadratic in the momentum and does not determine it.
-    #[must_use]
     pub fn is_cubic(&self) -> bool {
         !self.invariants().casimir3.is_zero()
     }
 
     /// The eigenvalues on the momenta that the constraint leaves.
-    #[must_use]
     pub fn eigenvalues(&self) -> Vec<(Direction, Polynomial)> {
         let mut list = self.unconfined_eigenvalues().to_vec();
         list.retain(|(direction, _)| self.leaves_free(*direction));
@@ -75,10 +72,9 @@ impl Stated {
     /// The form on momenta in place of velocities: `phi -> A phi B` changes `Sigma_hat` as `Oh` and `Sigma` as `Om`, so
     /// that what is invariant of the one is of the other. Of all momenta, those that a constraint takes away too: the
     /// groups are those of the Hamiltonian as stated.
-    #[must_use]
     pub fn on_momenta(&self, arena: &mut Arena) -> Kinetic {
         let spin = Matrix::symbols(arena, self.frame.momentum(), self.dim);
-        let rows = atoms(&spin);
+        let rows = spin.atoms();
         let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
         Kinetic {
             constraint: None,
@@ -93,7 +89,6 @@ impl Stated {
     }
 
     /// The places of the terms that are zero on all momenta that the constraint leaves, `X = P X`.
-    #[must_use]
     pub fn vanishing(&self, arena: &mut Arena) -> Vec<usize> {
         let on_momenta = Kinetic { constraint: self.constraint, ..self.on_momenta(arena) };
         let parts = on_momenta.internal.iter();
@@ -122,8 +117,7 @@ impl Stated {
         }
         let mut reciprocal = |(_, value): (Direction, Polynomial)| -> Option<Polynomial> {
             let value = value.expression(arena);
-            let reciprocal = arena.pow(value, -1)?;
-            Some(Polynomial::normal_form(arena, reciprocal))
+            Polynomial::reciprocal(arena, value)
         };
         let [shear, rotation, dilatation] = self.unconfined_eigenvalues();
         // What no velocity reads is chosen so that the terms are few.
@@ -161,7 +155,7 @@ impl Stated {
     pub fn hamiltonian(&self, arena: &mut Arena) -> Hamiltonian {
         let momentum = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let invariants = self.invariants();
-        let energy = invariants.energy(&atoms(&momentum));
+        let energy = invariants.energy(&momentum.atoms());
         // O = (dH/dX)^T
         let velocity = momentum.transpose().0.iter().map(|row| energy.gradient(row)).collect();
         Hamiltonian {
@@ -184,9 +178,4 @@ impl Stated {
         let mass = arena.pow(inverse, -1)?;
         Some(Translation { frame: *frame, mass, place: *place })
     }
-}
-
-fn atoms(matrix: &Matrix) -> Vec<Vec<Polynomial>> {
-    let row = |row: &Vec<Expr>| row.iter().map(|symbol| Polynomial::atom(*symbol)).collect();
-    matrix.0.iter().map(row).collect()
 }

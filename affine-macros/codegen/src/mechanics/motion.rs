@@ -19,7 +19,7 @@ use super::kinetics::Kinetics;
 use super::metric::Definitions;
 use super::mixed::{Internal, Legendre, Masses};
 use super::momentum_side::Stated;
-use super::shared::{CentreVelocity, atoms};
+use super::shared::CentreVelocity;
 use super::term::Frame;
 use crate::symbol::Quantity;
 
@@ -70,7 +70,6 @@ impl Motion {
     }
 
     /// Dimension of space.
-    #[must_use]
     pub fn dim(&self) -> usize {
         match &self.inverse {
             Inverse::Polynomial(h) => h.dim,
@@ -79,7 +78,6 @@ impl Motion {
     }
 
     /// `n^2` or the dimension of the group, and `n` more with translation.
-    #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         let n = self.dim();
         let internal = self.constraint().map_or(n * n, |group| group.dimension(n));
@@ -87,13 +85,11 @@ impl Motion {
     }
 
     /// The group that the motion is confined to; `None` for GL+(n).
-    #[must_use]
     pub fn constraint(&self) -> Option<Constraint> {
         self.parts.first().and_then(|part| part.constraint)
     }
 
     /// The frame of velocity and momentum.
-    #[must_use]
     pub fn frame(&self) -> Frame {
         match &self.inverse {
             Inverse::Polynomial(h) => h.frame,
@@ -102,13 +98,11 @@ impl Motion {
     }
 
     /// The affine momenta in which forces may be wanted, each for one frame.
-    #[must_use]
     pub fn momenta(&self) -> Vec<Momentum> {
         self.hamiltonian().map_or_else(|| vec![Momentum::of(self.frame())], Hamiltonian::momenta)
     }
 
     /// The internal energy with its Hamiltonian, where the velocity is a polynomial in the momentum.
-    #[must_use]
     pub fn polynomial(&self) -> Option<(&Kinetic, &Hamiltonian)> {
         match &self.inverse {
             Inverse::Polynomial(h) => self.parts.first().map(|kinetic| (kinetic, &**h)),
@@ -117,13 +111,11 @@ impl Motion {
     }
 
     /// The Hamiltonian of the whole motion, where it is a polynomial in the coordinates of a chart.
-    #[must_use]
     pub fn hamiltonian(&self) -> Option<&Hamiltonian> {
         self.polynomial().map(|(_, h)| h).filter(|_| !self.masses.are_mixed())
     }
 
     /// The factorised mass matrix of the internal motion, where it depends on the placement.
-    #[must_use]
     pub fn factorised(&self) -> Option<&Internal> {
         match &self.inverse {
             Inverse::Polynomial(_) => None,
@@ -132,13 +124,11 @@ impl Motion {
     }
 
     /// Inverse blocks that only the fields' values give.
-    #[must_use]
     pub fn numeric_blocks(&self) -> &[NumericBlock] {
         self.polynomial().map_or(&[], |(_, h)| &h.numeric_blocks)
     }
 
     /// Does the velocity determine the momentum? That of a cubic Hamiltonian does not.
-    #[must_use]
     pub fn determines_momentum(&self) -> bool {
         let isotropic = self.polynomial().and_then(|(_, h)| h.isotropic.as_ref());
         isotropic.is_none_or(|iso| iso.casimir3.is_zero())
@@ -247,7 +237,7 @@ impl Motion {
                 let velocity = h.velocity.iter().map(|row| row.iter().map(|o| chart.reduced(o)).collect());
                 (h.weight_definitions(), velocity.collect())
             }
-            Inverse::Factorised(internal) => (internal.shared.clone(), atoms(&internal.velocity)),
+            Inverse::Factorised(internal) => (internal.shared.clone(), internal.velocity.atoms()),
         }
     }
 

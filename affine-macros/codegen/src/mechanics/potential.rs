@@ -43,6 +43,7 @@ pub use writing::{Way, Writing};
 
 /// A potential.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Potential {
     dim: usize,
     /// `U` as an expression in base functions and parameters.
@@ -78,14 +79,12 @@ impl Potential {
     }
 
     /// The same with slopes that are known from how the energy is written, in place of those that its expression has.
-    #[must_use]
     pub fn with_slopes(self, arena: &Arena, slopes: Vec<(Base, Expr)>) -> Self {
         let slopes = slopes.into_iter().filter(|(_, slope)| !vanishes(arena, *slope)).collect();
         Self { slopes, ..self }
     }
 
     /// The same with the slopes of another expression of the energy as another way to write its forces.
-    #[must_use]
     pub fn or_by(self, arena: &mut Arena, energy: Expr) -> Self {
         let other_slopes = Some(Self::slopes(arena, self.dim, energy));
         Self { other_slopes, ..self }
@@ -106,7 +105,6 @@ impl Potential {
     }
 
     /// Does it change along no velocity that the constraint leaves free?
-    #[must_use]
     pub fn is_constant(&self) -> bool {
         self.keeps(Candidate::LinearMomentum) && self.invariance.moves_no_placement()
     }
@@ -128,32 +126,27 @@ impl Potential {
     }
 
     /// Does it depend on the time?
-    #[must_use]
     pub fn depends_on_time(&self) -> bool {
         self.time.is_some()
     }
 
     /// Does it depend on single stretches, through an iteration at run time?
-    #[must_use]
     pub fn has_single_stretches(&self) -> bool {
         self.slopes.iter().any(|(base, _)| matches!(base, Base::LogStretch(_)))
     }
 
     /// The time as a symbol, where it depends on it: an input of every program with forces.
-    #[must_use]
     pub fn time(&self) -> Option<Expr> {
         self.time
     }
 
     /// Does it depend on the position of the centre of mass?
-    #[must_use]
     pub fn moves_the_centre(&self) -> bool {
         self.slopes.iter().any(|(base, _)| matches!(base, Base::Position(_)))
     }
 
     /// Does every motion that conserves the candidate without the potential conserve it with it? The kinetic
     /// energy is quadratic in the momenta, so that its bracket and that of the potential vanish each for itself.
-    #[must_use]
     pub fn keeps(&self, candidate: Candidate) -> bool {
         if candidate == Candidate::Energy {
             return !self.depends_on_time();
@@ -170,13 +163,11 @@ impl Potential {
     }
 
     /// The potential with what keeps the state within its domain.
-    #[must_use]
     pub fn within(self, domain: Vec<Guard>) -> Self {
         Self { domain, ..self }
     }
 
     /// What keeps the state within the domain of the potential.
-    #[must_use]
     pub fn domain(&self) -> &[Guard] {
         &self.domain
     }

@@ -38,6 +38,7 @@ use turn::Turn;
 
 /// What is left to integrate once conserved momenta, symmetries and summands of `H` in involution are used.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Reduction {
     /// Its chart.
     pub chart: Chart,
@@ -161,8 +162,12 @@ impl Reduction {
         ways.map(taken).collect()
     }
 
+    /// The symbols of its state.
+    pub fn symbols(&self) -> Vec<Expr> {
+        self.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
+    }
+
     /// Components of the state that vanish.
-    #[must_use]
     pub fn gauge(&self) -> &[Expr] {
         self.turn.as_ref().map_or(&[], |turn| &turn.vanishing)
     }
@@ -200,7 +205,6 @@ impl Reduction {
     }
 
     /// What is taken out of the state, a sentence each.
-    #[must_use]
     pub fn left_out(&self) -> Vec<LeftOut> {
         let Self { chart, conserved, .. } = self;
         let Commuting { rotation, drift } = &self.commuting;

@@ -1,6 +1,6 @@
 //! The equations as `q' = V(p)`, `p' = F(t, q)`: what Nystrom methods integrate.
 
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial};
 
 use super::body::Body;
 use super::charts::Coordinate;
@@ -67,10 +67,8 @@ fn rates_of(
         return None;
     }
     let rate = |symbol: Expr| {
-        let mut sum = Polynomial::zero();
-        for (_, _, rate) in all.rates.iter().filter(|(_, moved, _)| *moved == symbol) {
-            sum.add_scaled(rate, &Rational::ONE);
-        }
+        let sum: Polynomial =
+            all.rates.iter().filter(|(_, moved, _)| *moved == symbol).map(|(_, _, rate)| rate).sum();
         Some((coordinate(symbol)?, symbol, sum))
     };
     let rates = components.iter().map(|symbol| rate(*symbol)).collect::<Option<Vec<_>>>()?;

@@ -75,7 +75,7 @@ impl Slope {
             [] => Some(Self::Zero),
             [((1, 0), stiffness)] => Some(Self::Linear(stiffness.clone())),
             [((0, low), lower), ((0, high), upper)] if *low == -*high => {
-                (*lower == upper.scaled(&Rational::MINUS_ONE)).then(|| Self::hyperbolic(upper, *high))?
+                (*lower == upper.neg()).then(|| Self::hyperbolic(upper, *high))?
             }
             _ => None,
         }
@@ -168,8 +168,6 @@ fn binding(arena: &Arena, coefficient: &Polynomial, opposite: Option<&Polynomial
 impl Isotropic {
     /// `1/m` of `p^2/(2 m)`, the energy of the dilatational momentum `p = tr Sigma`: `1/(n alpha) + 1/beta`.
     pub(super) fn inverse_dilatational_mass(&self, n: usize) -> Polynomial {
-        let mut inverse = self.casimir2.scaled(&Rational::one_over(n));
-        inverse.add_scaled(&self.casimir1_squared, &Rational::ONE);
-        inverse
+        self.casimir2.scaled(&Rational::one_over(n)).add(&self.casimir1_squared)
     }
 }

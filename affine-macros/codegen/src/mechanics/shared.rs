@@ -1,10 +1,10 @@
 //! Quantities that forces share: velocities, `phi^-1`, forces themselves.
 
-use crate::algebra::ring::{Square, adjugate, product, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, adjugate, determinant, pairs, product, table, times, transpose};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
-use super::charts::{Chart, Linear, Momentum};
+use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::term::Frame;
 
 /// How the velocity of the centre of mass is known.
@@ -55,7 +55,7 @@ impl Shared<'_> {
     ) -> Square<Polynomial> {
         let of = of.into();
         let mut result = values.clone();
-        for (i, j) in (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j))) {
+        for (i, j) in pairs(values.len()) {
             result[i][j] = self.named(of.at([i + 1, j + 1]), &values[i][j]);
         }
         result
@@ -64,11 +64,7 @@ impl Shared<'_> {
     /// `phi^-1`, with the names that potentials have for the determinant and its reciprocal.
     pub(super) fn inverse(&mut self, phi: &Square<Polynomial>) -> Square<Polynomial> {
         let cofactors = adjugate(phi);
-        let mut determinant = Polynomial::zero();
-        for (entry, row) in phi[0].iter().zip(&cofactors) {
-            determinant.add_product(entry, &row[0], &Rational::ONE);
-        }
-        self.named(Quantity::Determinant, &determinant);
+        let _ = self.named(Quantity::Determinant, &determinant(phi));
         let det = self.arena.symbol(Quantity::Determinant);
         // A symbol is not the number zero.
         let reciprocal = Polynomial::atom(self.arena.reciprocal(det));
@@ -85,8 +81,8 @@ impl Shared<'_> {
 impl Shared<'_> {
     /// `phi_dot` through the affine velocity of the chart.
     pub(super) fn phi_dot(&mut self, chart: &Chart) -> Square<Polynomial> {
-        let phi = atoms(&chart.phi);
-        let own = atoms(&Matrix::symbols(self.arena, chart.momentum.velocity(), chart.dim));
+        let phi = chart.placement();
+        let own = Matrix::symbols(self.arena, chart.momentum.velocity(), chart.dim).atoms();
         match frame_of(chart) {
             Frame::Body => product(&phi, &own),
             Frame::Space => product(&own, &phi),
@@ -104,7 +100,7 @@ impl Shared<'_> {
             }
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
-        let phi = atoms(&chart.phi);
+        let phi = chart.placement();
         let per_mass: Vec<Polynomial> =
             chart.p.iter().map(|p| Polynomial::atom(*p).mul(inverse_mass)).collect();
         match (linear, own) {
@@ -120,13 +116,31 @@ impl Shared<'_> {
 
     /// The force on the affine momentum of the chart that a force on `Pi` is.
     pub(super) fn on_own(&mut self, chart: &Chart, push: &Square<Polynomial>) -> Square<Polynomial> {
-        let phi = atoms(&chart.phi);
+        let phi = chart.placement();
         match frame_of(chart) {
             Frame::Body => product(push, &phi),
             Frame::Space => product(&phi, push),
             Frame::Flat => push.clone(),
         }
     }
+}
+
+/// The forces on the momenta of a chart by those on its affine spin and on its `p`, if it has one: `I(O) = Sigma + x p^T`.
+pub(super) fn on_momenta(
+    chart: &Chart,
+    affine: &Square<Polynomial>,
+    centre: Vec<Polynomial>,
+) -> Vec<(Coordinate, Polynomial)> {
+    let on_spin = |(a, b): (usize, usize)| {
+        let force = match (chart.momentum, centre.get(b)) {
+            (Momentum::Total, Some(push)) => affine[a][b].add(&Polynomial::atom(chart.x[a]).mul(push)),
+            _ => affine[a][b].clone(),
+        };
+        (Coordinate::M(a, b), force)
+    };
+    let mut forces: Vec<_> = pairs(chart.dim).map(on_spin).collect();
+    forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
+    forces
 }
 
 /// The frame whose affine momentum the chart has.
@@ -136,8 +150,4 @@ pub(super) fn frame_of(chart: &Chart) -> Frame {
         Momentum::Space | Momentum::Total => Frame::Space,
         Momentum::Canonical => Frame::Flat,
     }
-}
-
-pub(super) fn atoms(symbols: &Matrix) -> Square<Polynomial> {
-    symbols.0.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
 }

@@ -165,8 +165,7 @@ fn own_dilatation(
     let inverse_mass = iso.inverse_dilatational_mass(chart.dim);
     let rows = spatial_or_own(chart).into_iter().enumerate();
     let spin: Vec<Polynomial> = rows.filter_map(|(a, row)| row.into_iter().nth(a)).collect();
-    let mut trace = Polynomial::zero();
-    spin.iter().for_each(|entry| trace.add_scaled(entry, &Rational::ONE));
+    let trace: Polynomial = spin.iter().sum();
     let mut energy = Polynomial::zero();
     energy.add_product(&trace.mul(&trace), &inverse_mass, &Rational::HALF);
     let mut h = h.clone();

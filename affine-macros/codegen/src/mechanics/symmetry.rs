@@ -38,7 +38,6 @@ pub enum Breaker {
 
 /// The first generator or reflection of `group` on `side` that changes the energy, with the place of a term that
 /// it changes.
-#[must_use]
 pub fn broken_by(kinetic: &Kinetic, side: Side, group: Group) -> Option<(Breaker, usize)> {
     let total = Energy::new(kinetic, kinetic.internal_energy());
     for breaker in breakers(kinetic.dim, group) {
@@ -57,7 +56,6 @@ pub fn broken_by(kinetic: &Kinetic, side: Side, group: Group) -> Option<(Breaker
 }
 
 /// The largest of the named groups that leaves the energy invariant.
-#[must_use]
 pub fn largest_group(kinetic: &Kinetic, side: Side) -> Group {
     for group in [Group::Affine, Group::Metric] {
         if broken_by(kinetic, side, group).is_none() {

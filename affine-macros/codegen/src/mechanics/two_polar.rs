@@ -151,13 +151,7 @@ impl Lattice {
             Polynomial::normal_form(arena, slope)
         };
         let slopes: Vec<(Coordinate, Polynomial)> = coordinates.iter().map(|z| (*z, slope(*z))).collect();
-        let rate = |z: Coordinate| {
-            let mut sum = Polynomial::zero();
-            for (y, slope) in &slopes {
-                sum.add_product(&self.bracket(z, *y), slope, &Rational::ONE);
-            }
-            sum
-        };
+        let rate = |z: Coordinate| slopes.iter().map(|(y, slope)| self.bracket(z, *y).mul(slope)).sum();
         let rates = coordinates.iter().map(|z| (*z, self.symbol(*z), rate(*z))).collect();
         let of = |z: Coordinate| {
             let slope = slopes.iter().find(|(y, _)| *y == z).map(|(_, slope)| slope.clone());

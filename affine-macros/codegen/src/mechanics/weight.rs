@@ -43,7 +43,6 @@ impl Weight {
     }
 
     /// The force `-dH_int/dq 1/n = 2 H_int/n 1` on `Sigma_hat` from the internal energy, and what defines the weight.
-    #[must_use]
     pub fn load(&self, chart: &Chart, internal: &Polynomial) -> Load {
         let share = &Rational::from(2) * &Rational::one_over(chart.dim);
         let force = chart.reduced(internal).scaled(&share);

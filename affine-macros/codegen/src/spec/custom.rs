@@ -77,7 +77,6 @@ named!(Role {
 
 impl Role {
     /// A force rather than a potential?
-    #[must_use]
     pub fn is_force(self) -> bool {
         matches!(self, Self::Spatial | Self::Comoving | Self::Translation)
     }

@@ -18,7 +18,7 @@ pub struct Expression {
 }
 
 /// The forms of an expression. Coefficients of the kinetic energy are made of the arithmetic forms, down to
-/// [`ExpressionKind::Power`]; only a potential has the others. Indices are those of the paper, from 1.
+/// [`ExpressionKind::Binary`]; only a potential has the others. Indices are those of the paper, from 1.
 #[derive(Clone, Debug)]
 pub enum ExpressionKind {
     /// A decimal literal, exactly.
@@ -29,16 +29,8 @@ pub enum ExpressionKind {
     FieldEntry(Ident, usize, usize),
     /// `-a`.
     Negate(Box<Expression>),
-    /// `a + b`.
-    Add(Box<Expression>, Box<Expression>),
-    /// `a - b`.
-    Subtract(Box<Expression>, Box<Expression>),
-    /// `a * b`.
-    Multiply(Box<Expression>, Box<Expression>),
-    /// `a / b`.
-    Divide(Box<Expression>, Box<Expression>),
-    /// `a ^ b`.
-    Power(Box<Expression>, Box<Expression>),
+    /// `a + b`, `a ^ b` and the like.
+    Binary(Operator, Box<Expression>, Box<Expression>),
     /// `exp(a)`.
     Call(Function, Box<Expression>),
     /// `tr(G*Ct)`: the trace of a product, factor by factor.
@@ -70,13 +62,11 @@ pub struct PolynomialTrace {
 
 impl PolynomialTrace {
     /// Its matrices, as often as they stand there.
-    #[must_use]
     pub fn matrices(&self) -> Vec<MatrixName> {
         matrices(&self.written)
     }
 
     /// The number of its factors, and of what its [powers](more_factors) are worth beyond their bases.
-    #[must_use]
     pub fn factors(&self) -> usize {
         factors(&self.written)
     }
@@ -84,7 +74,6 @@ impl PolynomialTrace {
 
 /// What a power of a matrix is worth in factors beyond those of its base: one factor for each further one where these are few,
 /// two for each squaring otherwise, since the slope is a power as well.
-#[must_use]
 pub fn more_factors(exponent: usize) -> usize {
     let beyond = exponent.saturating_sub(1);
     let squarings = (usize::BITS - beyond.leading_zeros()) as usize;
@@ -108,7 +97,7 @@ fn factors(part: &Expression) -> usize {
         _ => part.operands().into_iter().map(factors).sum(),
     };
     match &part.kind {
-        ExpressionKind::Power(_, exponent) if within > 0 => match &exponent.kind {
+        ExpressionKind::Binary(Operator::Power, _, exponent) if within > 0 => match &exponent.kind {
             ExpressionKind::Number(power) => {
                 let power = power.to_i64().and_then(|k| usize::try_from(k).ok());
                 within + power.map_or(0, more_factors)
@@ -149,18 +138,21 @@ pub enum Operator {
 
 impl Operator {
     /// Applies the operator; the place spans both operands.
-    #[must_use]
     pub fn apply(self, left: Expression, right: Expression) -> Expression {
         let span = left.span.to(right.span);
-        let (left, right) = (Box::new(left), Box::new(right));
-        let kind = match self {
-            Self::Add => ExpressionKind::Add(left, right),
-            Self::Subtract => ExpressionKind::Subtract(left, right),
-            Self::Multiply => ExpressionKind::Multiply(left, right),
-            Self::Divide => ExpressionKind::Divide(left, right),
-            Self::Power => ExpressionKind::Power(left, right),
-        };
-        Expression { kind, span }
+        Expression { kind: ExpressionKind::Binary(self, Box::new(left), Box::new(right)), span }
+    }
+
+    /// How it is written, how tightly it binds, and how tightly its operands have to. An exponent takes a sign and further
+    /// powers without parentheses: `2^-1`, `2^3^2 = 2^(3^2)`.
+    fn notation(self) -> (&'static str, Binding, [Binding; 2]) {
+        match self {
+            Self::Add => (" + ", Binding::Sum, [Binding::Sum, Binding::Product]),
+            Self::Subtract => (" - ", Binding::Sum, [Binding::Sum, Binding::Product]),
+            Self::Multiply => ("*", Binding::Product, [Binding::Product, Binding::Sign]),
+            Self::Divide => ("/", Binding::Product, [Binding::Product, Binding::Sign]),
+            Self::Power => ("^", Binding::Power, [Binding::Atom, Binding::Sign]),
+        }
     }
 }
 
@@ -176,7 +168,6 @@ enum Binding {
 
 impl Expression {
     /// The operands of the outermost form.
-    #[must_use]
     pub fn operands(&self) -> Vec<&Expression> {
         match &self.kind {
             ExpressionKind::Number(_)
@@ -192,11 +183,7 @@ impl Expression {
             ExpressionKind::Negate(one) | ExpressionKind::Call(_, one) | ExpressionKind::Pairs(one) => {
                 vec![one]
             }
-            ExpressionKind::Add(left, right)
-            | ExpressionKind::Subtract(left, right)
-            | ExpressionKind::Multiply(left, right)
-            | ExpressionKind::Divide(left, right)
-            | ExpressionKind::Power(left, right) => vec![left, right],
+            ExpressionKind::Binary(_, left, right) => vec![left, right],
         }
     }
 
@@ -215,9 +202,7 @@ impl Expression {
             | ExpressionKind::Norm
             | ExpressionKind::Pairs(_) => Binding::Atom,
             ExpressionKind::Negate(_) => Binding::Sign,
-            ExpressionKind::Add(..) | ExpressionKind::Subtract(..) => Binding::Sum,
-            ExpressionKind::Multiply(..) | ExpressionKind::Divide(..) => Binding::Product,
-            ExpressionKind::Power(..) => Binding::Power,
+            ExpressionKind::Binary(operator, ..) => operator.notation().1,
         }
     }
 
@@ -234,20 +219,12 @@ impl Expression {
                 f.write_str("-")?;
                 one.write(Binding::Sign, f)?;
             }
-            ExpressionKind::Add(left, right) => {
-                pair(left, " + ", right, [Binding::Sum, Binding::Product], f)?
+            ExpressionKind::Binary(operator, left, right) => {
+                let (sign, _, [before, behind]) = operator.notation();
+                left.write(before, f)?;
+                f.write_str(sign)?;
+                right.write(behind, f)?;
             }
-            ExpressionKind::Subtract(left, right) => {
-                pair(left, " - ", right, [Binding::Sum, Binding::Product], f)?;
-            }
-            ExpressionKind::Multiply(left, right) => {
-                pair(left, "*", right, [Binding::Product, Binding::Sign], f)?
-            }
-            ExpressionKind::Divide(left, right) => {
-                pair(left, "/", right, [Binding::Product, Binding::Sign], f)?
-            }
-            // An exponent takes a sign and further powers without parentheses: 2^-1, 2^3^2 = 2^(3^2).
-            ExpressionKind::Power(left, right) => pair(left, "^", right, [Binding::Atom, Binding::Sign], f)?,
             ExpressionKind::Call(function, one) => write!(f, "{}({one})", function.name())?,
             ExpressionKind::Trace(factors) => {
                 let names: Vec<&str> = factors.iter().map(|factor| factor.name()).collect();
@@ -272,18 +249,6 @@ impl fmt::Display for Expression {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write(Binding::Sum, f)
     }
-}
-
-fn pair(
-    left: &Expression,
-    sign: &str,
-    right: &Expression,
-    at_least: [Binding; 2],
-    f: &mut fmt::Formatter<'_>,
-) -> fmt::Result {
-    left.write(at_least[0], f)?;
-    f.write_str(sign)?;
-    right.write(at_least[1], f)
 }
 
 /// A number as a decimal literal, as the user would write it. Only a number that no literal denotes comes out

@@ -35,7 +35,6 @@ impl Item {
     }
 
     /// The struct as written, with lines of documentation below its own.
-    #[must_use]
     pub fn documented(&self, lines: &[String]) -> TokenStream {
         let Self { attributes, declaration, .. } = self;
         // An empty line: what the user wrote is a paragraph of its own.
@@ -57,7 +56,6 @@ pub struct Field {
 
 impl Field {
     /// Written as `f64`, also with its full path: what expressions may use. An alias cannot be seen through.
-    #[must_use]
     pub fn is_real(&self) -> bool {
         matches!(written(&self.ty), Type::Path(path) if path.qself.is_none() && is_f64(&path.path))
     }

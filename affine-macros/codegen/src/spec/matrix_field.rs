@@ -18,7 +18,6 @@ pub enum Storage {
 impl Field {
     /// The number of rows of a square matrix of doubles whose type is written out: `Matrix3<f64>`, `SMatrix<f64, 9, 9>`,
     /// `Matrix<3>` or `[[f64; 3]; 3]`, with any path before it. An alias cannot be seen through.
-    #[must_use]
     pub fn matrix(&self) -> Option<(usize, Storage)> {
         match written(&self.ty) {
             Type::Array(rows) => {

@@ -33,7 +33,6 @@ named!(MomentumKind {
 
 impl MomentumKind {
     /// A kinetic energy of the centre of mass, in p?
-    #[must_use]
     pub fn is_translation(self) -> bool {
         matches!(self, Self::BodyTranslation | Self::SpaceTranslation)
     }

@@ -1,6 +1,6 @@
 //! The names of the specification language, and how a misspelt one finds its neighbour.
 
-use crate::symbol::{Constraint, TermKind};
+use crate::symbol::{Capability, Constraint, TermKind};
 
 /// A closed set of names.
 pub trait Named: Copy + 'static {
@@ -63,7 +63,6 @@ named!(Constraint { Isochoric: "isochoric", Rigid: "rigid", Conformal: "conforma
 
 impl Constraint {
     /// The group by its equation, as the end of a sentence.
-    #[must_use]
     pub fn group(self) -> &'static str {
         match self {
             Self::Isochoric => "det phi = 1",
@@ -73,7 +72,6 @@ impl Constraint {
     }
 
     /// What affine velocities are.
-    #[must_use]
     pub fn velocities(self) -> &'static str {
         match self {
             Self::Isochoric => "traceless",
@@ -91,33 +89,6 @@ pub enum Requirement {
 }
 
 named!(Requirement { PositiveDefinite: "positive_definite" });
-
-/// Something that is emitted only when asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Capability {
-    /// Exact sub-flows.
-    Splitting,
-    /// Taylor coefficients.
-    Taylor,
-    /// Velocities of momenta and forces of positions, apart.
-    Nystrom,
-    /// Lattice form.
-    TwoPolar,
-    /// Lattice form in ratios of stretches.
-    Ratios,
-    /// Variational equations.
-    Tangent,
-    /// SIMD lanes.
-    Lanes,
-    /// The configuration metric and its inverse.
-    Metric,
-    /// The acceleration of the centre of mass.
-    Acceleration,
-    /// The balance laws of the kinematical spin.
-    Balance,
-    /// The formulas of the description in LaTeX, beside plain text.
-    Latex,
-}
 
 named!(Capability {
     Splitting: "splitting",
@@ -144,7 +115,6 @@ impl Named for TermKind {
 /// The candidate that is probably meant by `name`: the only one whose first words it is, as `vorticity` of
 /// `vorticity_squared`; else the nearest, if it is near enough: an edit distance of at most a third of the longer name's
 /// length.
-#[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.into_iter().collect();
     let begins = |candidate: &&str| candidate.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'));

@@ -4,10 +4,10 @@ use super::custom::{Custom, SelfGravity};
 use super::expression::Expression;
 use super::item::Item;
 use super::momentum_side::MomentumKind;
-use super::names::{Capability, Claim, Named, PlacementGroup, Requirement};
+use super::names::{Claim, Named, PlacementGroup, Requirement};
 use super::spanned::Spanned;
 use crate::diagnostics::Region;
-use crate::symbol::{Constraint, TermKind};
+use crate::symbol::{Asked, Capability, Constraint, TermKind};
 
 /// A model as stated by the attribute and the struct below it.
 pub struct Spec {
@@ -78,7 +78,6 @@ pub struct Metric {
 
 impl Metric {
     /// The paper's letters.
-    #[must_use]
     pub fn letters(&self) -> &'static str {
         if self.side == "space" { "g" } else { "eta" }
     }
@@ -86,6 +85,7 @@ impl Metric {
 
 /// The potential energy U(t, x, phi).
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Potential {
     /// The key `potential`.
     pub key: Region,
@@ -119,13 +119,17 @@ impl Value {
 }
 
 impl Spec {
+    /// What is asked for besides the equations.
+    pub fn asked(&self) -> Asked {
+        self.emit.iter().map(|capability| capability.value).collect()
+    }
+
     /// The terms of all quadratic forms: the kinetic energy, then the dissipation.
     pub fn forms(&self) -> impl Iterator<Item = &Term> {
         self.kinetic.iter().chain(&self.dissipation)
     }
 
     /// The term of a kind.
-    #[must_use]
     pub fn term(&self, kind: TermKind) -> Option<&Term> {
         self.kinetic.iter().find(|term| term.kind.value == kind)
     }
@@ -140,7 +144,6 @@ impl Spec {
     }
 
     /// The name and the place of the first translation term, on either side.
-    #[must_use]
     pub fn translation(&self) -> Option<(&'static str, Region)> {
         let kinetic = self.kinetic.iter().find(|term| term.kind.value.is_translation());
         let kinetic = kinetic.map(|term| (term.kind.value.name(), term.kind.span));

@@ -6,6 +6,7 @@ use super::{Field, MatrixName, Named, Spec};
 
 /// What a name in an expression stands for.
 #[derive(Clone, Copy)]
+#[must_use]
 pub enum Symbol<'a> {
     /// `n`.
     Dimension,
@@ -59,7 +60,6 @@ pub const POTENTIAL_SYMBOLS: [(&str, &str); 18] = [
 
 impl Spec {
     /// What `name` stands for in this model's coefficients; symbols go before fields.
-    #[must_use]
     pub fn resolve(&self, name: &Ident) -> Option<Symbol<'_>> {
         if name == "n" {
             return Some(Symbol::Dimension);
@@ -68,7 +68,6 @@ impl Spec {
     }
 
     /// What `name` stands for in this model's potential; symbols go before fields.
-    #[must_use]
     pub fn resolve_in_potential(&self, name: &Ident) -> Option<Symbol<'_>> {
         let text = name.to_string();
         Some(match text.as_str() {

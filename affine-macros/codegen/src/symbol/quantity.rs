@@ -12,7 +12,6 @@ macro_rules! quantities {
 
         impl Quantity {
             /// What the names of its symbols begin with.
-            #[must_use]
             pub fn stem(self) -> &'static str {
                 match self {
                     $(Self::$quantity => $stem,)*
@@ -107,7 +106,6 @@ impl Quantity {
     }
 
     /// Is it a tensor of the placement, or a trace of one?
-    #[must_use]
     pub fn is_tensor(self) -> bool {
         use Quantity::{
             Finger, FingerSquare, Green, GreenSquare, Placement, PlacementDifference, PlacementSum, Trace,
@@ -118,7 +116,6 @@ impl Quantity {
     }
 
     /// The quantity that this is a power of, with the same indices, and the exponent.
-    #[must_use]
     pub fn power(self) -> Option<(Self, i32)> {
         match self {
             Self::FlatVelocity => Some((Self::PlacementVelocity, 1)),

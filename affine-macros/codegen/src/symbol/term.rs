@@ -40,7 +40,6 @@ pub enum Frame {
 
 impl Frame {
     /// The affine velocity of the frame.
-    #[must_use]
     pub fn velocity(self) -> Quantity {
         match self {
             Frame::Body => Quantity::ComovingAffineVelocity,
@@ -50,7 +49,6 @@ impl Frame {
     }
 
     /// The affine spin of the frame.
-    #[must_use]
     pub fn momentum(self) -> Quantity {
         match self {
             Frame::Body => Quantity::ComovingAffineSpin,
@@ -77,7 +75,6 @@ pub enum Pattern {
 
 impl Pattern {
     /// Rows of a matrix of coefficients in dimension `n`; `None` where the coefficient is one number.
-    #[must_use]
     pub fn rows(self, n: usize) -> Option<usize> {
         match self {
             Pattern::TraceOfSquare | Pattern::SquareOfTrace | Pattern::Centre => None,
@@ -134,49 +131,41 @@ impl TermKind {
     }
 
     /// Its name in a specification.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
     /// A value that it may have, as written in a specification.
-    #[must_use]
     pub fn example(self) -> &'static str {
         self.row().example
     }
 
     /// How it reads the velocity of its frame.
-    #[must_use]
     pub fn pattern(self) -> Pattern {
         self.row().pattern
     }
 
     /// The frame that makes the coefficients of an internal term constant; `None` where any of body and space does.
-    #[must_use]
     pub fn internal_frame(self) -> Option<Frame> {
         self.row().frame.filter(|_| !self.is_translation())
     }
 
     /// The frame of a translational term.
-    #[must_use]
     pub fn translation_frame(self) -> Option<Frame> {
         self.row().frame.filter(|_| self.is_translation())
     }
 
     /// `1/2 K[(A,B),(C,D)] O[A,B] O[C,D]`, a form on pairs of indices?
-    #[must_use]
     pub fn is_tensor(self) -> bool {
         self.pattern() == Pattern::Pairs
     }
 
     /// A kinetic energy of the centre of mass, in x_dot?
-    #[must_use]
     pub fn is_translation(self) -> bool {
         self.pattern() == Pattern::Centre
     }
 
     /// `1/2 tr(O J O^T)` over `Oh`, `Om` or `phi_dot`, with `J` an n x n inertia or a multiple of the identity?
-    #[must_use]
     pub fn is_inertia(self) -> bool {
         self.pattern() == Pattern::Rows
     }

@@ -11,7 +11,6 @@ use crate::algebra::fault::never_missing;
 
 impl Rational {
     /// Does it have more digits than anyone reads, as what stands for an irrational number has?
-    #[must_use]
     pub fn is_long(&self) -> bool {
         match &self.0 {
             Repr::Small(..) => false,
@@ -20,7 +19,6 @@ impl Rational {
     }
 
     /// For readers: exactly, or the nearest double of a long one, of one beyond them to three digits.
-    #[must_use]
     pub fn shown(&self) -> String {
         match self.is_long() {
             false => self.to_string(),
@@ -30,7 +28,6 @@ impl Rational {
     }
 
     /// Is it zero, or of the size of a normal double: does rounding leave it its digits?
-    #[must_use]
     pub fn fits_a_double(&self) -> bool {
         match &self.0 {
             Repr::Small(..) => true,
@@ -39,7 +36,6 @@ impl Rational {
     }
 
     /// `k` with `2^(k - 1) < |number| < 2^(k + 1)`; 0 for zero.
-    #[must_use]
     pub fn binary_exponent(&self) -> i64 {
         let (numerator, denominator) = self.parts();
         let bits =
@@ -48,7 +44,6 @@ impl Rational {
     }
 
     /// To three digits, however large or small: `1e-400`, `-2.35e312`.
-    #[must_use]
     pub fn about(&self) -> String {
         // Digits above less digits below: the decimal exponent, or one more.
         let (numerator, denominator) = self.abs().parts();
@@ -64,7 +59,6 @@ impl Rational {
     }
 
     /// The double nearest to the number, and the double nearest to the rest: correct to double-double.
-    #[must_use]
     pub fn to_doubles(&self) -> (f64, f64) {
         let exact = self.to_big();
         let hi = nearest(&exact);
@@ -73,7 +67,6 @@ impl Rational {
     }
 
     /// The number to half the digits of a double, the double nearest to the rest, and the one nearest to what is left.
-    #[must_use]
     pub fn to_halves(&self) -> [f64; 3] {
         let exact = self.to_big();
         let half = f64::from_bits(nearest(&exact).to_bits() & !0x7ff_ffff);

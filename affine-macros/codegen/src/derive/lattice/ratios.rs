@@ -3,10 +3,11 @@
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
-use crate::ir::fuse::fuse;
 use crate::mechanics::two_polar::Ratios;
-use crate::optimise::{Batch, straight_line};
+use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
+
+use crate::derive::batch::program;
 
 /// The equations in ratios.
 pub struct RatioProgram {
@@ -28,8 +29,7 @@ impl RatioProgram {
         let batch = Batch { shared: form.shared.clone(), results: results.collect(), ..Batch::default() };
         let varying: Vec<Expr> = state.iter().chain(&couplings).copied().collect();
         // Nothing depends on the coefficients of the model.
-        let mut none = Constants::new(Quantity::Coefficient);
-        let program = fuse(&straight_line(arena, &batch, &mut none, &|atom| varying.contains(&atom)));
+        let program = program(arena, &batch, &mut Constants::new(Quantity::Coefficient), &varying);
         let names = |symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect();
         Self { state: names(&state), couplings: names(&couplings), program }
     }

@@ -1,10 +1,10 @@
 //! The recurrence of a model on its way to code, and the names of its values.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::emit::context::Context;
-use crate::emit::pattern::{ident, pattern, reads};
+use crate::emit::pattern::{bound, ident};
 use crate::emit::trajectory;
 use crate::ir::taylor::{Recurrence, Series};
 use crate::ir::{Program, Value};
@@ -29,14 +29,8 @@ impl Writer<'_> {
     }
 
     /// A state vector's components that are read, bound to their names, and the parameter.
-    pub(super) fn bind(&self, used: &[Symbol], from: &str) -> (TokenStream, TokenStream) {
-        let names = self.states();
-        if !reads(used, &names) {
-            let unused = format_ident!("_{from}");
-            return (TokenStream::new(), quote!(#unused));
-        }
-        let (bound, from) = (pattern(&names, used), format_ident!("{from}"));
-        (quote!(let #bound = *#from;), quote!(#from))
+    pub(super) fn bind(&self, used: &[Symbol], from: &str) -> (TokenStream, Ident) {
+        bound(&self.states(), used, from)
     }
 
     /// The program with other results.

@@ -7,15 +7,13 @@ use crate::derive::{Components, PieceProgram, TwoPolar};
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
 use crate::emit::number::number;
-use crate::emit::pattern::{pattern, reads};
+use crate::emit::pattern::{bound, pattern};
 use crate::symbol::{Quantity, Symbol};
 
 /// The implementation of the capability over the state with frames, whose components are named.
 pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbol]) -> TokenStream {
     let Some(pieces) = &form.pieces else { return TokenStream::new() };
-    let (prepared, rt, t, n) =
-        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
-    let (generics, types, clause) = context.generics();
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let names = pieces.list.iter().map(|piece| &piece.name);
     let nystrom = pieces.nystrom;
     let count = pieces.list.len();
@@ -29,25 +27,24 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbo
     let is_read = |symbol: &Symbol| pieces.list.iter().any(|piece| piece.program.inputs().contains(symbol));
     let couplings = if form.couplings.iter().any(is_read) { quote!(couplings) } else { quote!(_couplings) };
     let turning = turning(context);
-    quote! {
-        impl #generics #rt::LatticePieces<#n> for #prepared #types #clause {
-            const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
-            const NYSTROM: ::core::primitive::bool = #nystrom;
-            #turning
+    let items = quote! {
+        const PIECES: &'static [&'static ::core::primitive::str] = &[#(#names),*];
+        const NYSTROM: ::core::primitive::bool = #nystrom;
+        #turning
 
-            #[inline]
-            fn lattice_flow<#t: #rt::Real>(
-                &self,
-                piece: #rt::usize,
-                h: #t,
-                #couplings: &Self::Couplings<#t>,
-                state: &mut Self::Framed<#t>,
-                carry: &mut Self::Framed<#t>,
-            ) {
-                match piece { #(#arms)* }
-            }
+        #[inline]
+        fn lattice_flow<#t: #rt::Real>(
+            &self,
+            piece: #rt::usize,
+            h: #t,
+            #couplings: &Self::Couplings<#t>,
+            state: &mut Self::Framed<#t>,
+            carry: &mut Self::Framed<#t>,
+        ) {
+            match piece { #(#arms)* }
         }
-    }
+    };
+    context.implementation("LatticePieces", &items)
 }
 
 /// `1/mu` and the side of the rotation that is no piece.
@@ -77,11 +74,8 @@ fn turning(context: &Context) -> TokenStream {
 fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Symbol]) -> TokenStream {
     let rt = &context.names.rt;
     let used = piece.program.inputs();
-    let couplings = reads(&used, &form.couplings).then(|| {
-        let bound = pattern(&form.couplings, &used);
-        quote!(let #bound = *couplings;)
-    });
-    let bound = pattern(framed, &used);
+    let (couplings, _) = bound(&form.couplings, &used, "couplings");
+    let state = pattern(framed, &used);
     let Body { lets, results } = context.generic(&piece.program, Coefficients::Own);
     // Several results are names or numbers; a single one may be a sum.
     let (only, results) = match results.as_slice() {
@@ -107,7 +101,7 @@ fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Symb
         }
     });
     quote! {
-        let #bound = *state;
+        let #state = *state;
         #couplings
         #lets
         #only

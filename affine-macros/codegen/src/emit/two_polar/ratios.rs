@@ -13,9 +13,7 @@ use crate::emit::pattern::pattern;
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream {
     let Some(ratios) = &form.ratios else { return TokenStream::new() };
-    let (prepared, rt, t, n) =
-        (&context.names.prepared, &context.names.rt, &context.names.scalar, context.dim());
-    let (generics, types, clause) = context.generics();
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let size = number(ratios.state.len());
     let used = ratios.program.inputs();
     let bound = pattern(&ratios.state, &used);
@@ -28,22 +26,21 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream 
     };
     let Body { lets, results } = context.generic(&ratios.program, Coefficients::Own);
     let operations = description::operations(context, ratios.program.operations());
-    quote! {
-        impl #generics #rt::RatioForm<#n> for #prepared #types #clause {
-            const RATIO_OPERATIONS: #rt::Operations = #operations;
-            type Ratios<#t: #rt::Scalar> = [#t; #size];
+    let items = quote! {
+        const RATIO_OPERATIONS: #rt::Operations = #operations;
+        type Ratios<#t: #rt::Scalar> = [#t; #size];
 
-            #[inline]
-            fn ratio_equations<#t: #rt::Scalar>(
-                &self,
-                #couplings: &Self::Couplings<#t>,
-                state: &Self::Ratios<#t>,
-            ) -> Self::Ratios<#t> {
-                #read
-                let #bound = *state;
-                #lets
-                [#(#results),*]
-            }
+        #[inline]
+        fn ratio_equations<#t: #rt::Scalar>(
+            &self,
+            #couplings: &Self::Couplings<#t>,
+            state: &Self::Ratios<#t>,
+        ) -> Self::Ratios<#t> {
+            #read
+            let #bound = *state;
+            #lets
+            [#(#results),*]
         }
-    }
+    };
+    context.implementation("RatioForm", &items)
 }

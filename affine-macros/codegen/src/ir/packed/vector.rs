@@ -45,7 +45,6 @@ pub enum Four {
 
 impl Four {
     /// The vectors that it reads.
-    #[must_use]
     pub fn operands(self) -> Vec<Index> {
         match self {
             Self::State(_) | Self::All(_) | Self::Gathered(_) => Vec::new(),
@@ -56,13 +55,11 @@ impl Four {
     }
 
     /// Are its lanes computed there, or read from the state?
-    #[must_use]
     pub fn makes(self) -> bool {
         !matches!(self, Self::All(_) | Self::Gathered(_))
     }
 
     /// The values that it reads.
-    #[must_use]
     pub fn values(self) -> Vec<Value> {
         match self {
             Self::All(value) => vec![value],
@@ -74,7 +71,6 @@ impl Four {
 
 impl Lane {
     /// The value, whatever its sign.
-    #[must_use]
     pub fn value(self) -> Option<Value> {
         match self {
             Self::Of(value) | Self::Minus(value) => Some(value),
@@ -120,7 +116,6 @@ pub struct Packed {
 
 impl Packed {
     /// The scalar program of what is computed outside of lanes and gathered into them.
-    #[must_use]
     pub fn read(&self) -> Program {
         let mut program = self.program.clone();
         let inputs = self.steps.iter().flat_map(|step| match *step {
@@ -133,7 +128,6 @@ impl Packed {
     }
 
     /// The steps that a step reads.
-    #[must_use]
     pub fn operands(&self, step: Step) -> Vec<Step> {
         let of = |value: Value| match self.lane(value) {
             Some((index, _)) => Step::Vector(index),
@@ -153,7 +147,6 @@ impl Packed {
     }
 
     /// Where a value is found, if it is a lane.
-    #[must_use]
     pub fn lane(&self, value: Value) -> Option<(Index, usize)> {
         self.in_lanes.iter().find(|(known, _)| *known == value).map(|(_, place)| *place)
     }

@@ -74,7 +74,6 @@ pub struct Pass {
 
 impl Pass {
     /// A vector with itself: the terms `j` and `k - j` are equal.
-    #[must_use]
     pub fn is_square(&self) -> bool {
         self.right == Factor::Vector(self.left)
     }
@@ -148,13 +147,11 @@ pub enum Term {
 
 impl Recurrence {
     /// The slot that holds a series.
-    #[must_use]
     pub fn slot(&self, series: Series) -> Option<usize> {
         self.row.iter().position(|kept| *kept == Some(series))
     }
 
     /// Does any rule, or what is kept, read the order itself?
-    #[must_use]
     pub fn reads_order(&self) -> bool {
         let weighted = |rule: &Rule| match rule {
             Rule::Function { function, .. } => !matches!(function, Function::Sqrt | Function::Abs),
@@ -166,7 +163,6 @@ impl Recurrence {
     }
 
     /// The number that a constant value is.
-    #[must_use]
     pub fn number(&self, value: Value) -> Rational {
         match &self.program.steps[value] {
             Op::Constant(number) => number.clone(),
@@ -175,14 +171,12 @@ impl Recurrence {
     }
 
     /// Multiplications of vectors for each step `j` of the convolutions.
-    #[must_use]
     pub fn passes(&self) -> usize {
         self.full.len() + self.inner.len()
     }
 }
 
 /// Number of sums of a list of passes.
-#[must_use]
 pub fn sums(passes: &[Pass]) -> usize {
     passes.iter().map(|pass| pass.sum + 1).max().unwrap_or(0)
 }

@@ -5,7 +5,7 @@ use crate::algebra::ring::{Square, table};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::lower::constant::integer;
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, MatrixName};
+use crate::spec::{Expression, ExpressionKind, MatrixName, Operator};
 
 /// The values of parts without matrices.
 pub(super) type Scalars<'a> = &'a dyn Fn(&mut Arena, &Expression) -> Option<Expr>;
@@ -49,26 +49,23 @@ impl Tape<'_> {
                 let a = self.read(a)?;
                 self.sum(vec![(a, -&one)])
             }
-            ExpressionKind::Add(a, b) => {
+            ExpressionKind::Binary(operator @ (Operator::Add | Operator::Subtract), a, b) => {
                 let (a, b) = (self.read(a)?, self.read(b)?);
-                self.sum(vec![(a, one.clone()), (b, one)])
+                let sign = if *operator == Operator::Add { one.clone() } else { -&one };
+                self.sum(vec![(a, one), (b, sign)])
             }
-            ExpressionKind::Subtract(a, b) => {
-                let (a, b) = (self.read(a)?, self.read(b)?);
-                self.sum(vec![(a, one.clone()), (b, -&one)])
-            }
-            ExpressionKind::Multiply(a, b) => {
+            ExpressionKind::Binary(Operator::Multiply, a, b) => {
                 let (a, b) = (self.read(a)?, self.read(b)?);
                 self.product(a, b)
             }
-            ExpressionKind::Divide(a, b) => {
+            ExpressionKind::Binary(Operator::Divide, a, b) => {
                 let a = self.read(a)?;
                 let divisor = (self.scalars)(self.arena, b)?;
                 let inverse = self.arena.pow(divisor, -1)?;
                 let inverse = self.scalar(inverse);
                 self.product(inverse, a)
             }
-            ExpressionKind::Power(a, exponent) => {
+            ExpressionKind::Binary(Operator::Power, a, exponent) => {
                 let a = self.read(a)?;
                 let exponent = u32::try_from(integer(exponent, self.n)?).ok()?;
                 self.power(a, exponent)
@@ -89,8 +86,7 @@ impl Tape<'_> {
 
     pub(super) fn named(&mut self, matrix: MatrixName) -> usize {
         let n = self.n;
-        let value =
-            (0..n).map(|a| (0..n).map(|b| entry(matrix, a, b).symbol(self.arena)).collect()).collect();
+        let value = table(n, |a, b| entry(matrix, a, b).symbol(self.arena));
         self.put(value, Made::Named(matrix), None)
     }
 
@@ -106,7 +102,7 @@ impl Tape<'_> {
             let terms: Vec<_> = terms.iter().map(|(k, c)| (nodes[*k].value[a][b], c.clone())).collect();
             arena.linear(&terms)
         };
-        let value = (0..n).map(|a| (0..n).map(|b| entry(self.arena, &self.nodes, a, b)).collect()).collect();
+        let value = table(n, |a, b| entry(self.arena, &self.nodes, a, b));
         self.put(value, Made::Sum(terms), None)
     }
 
@@ -192,12 +188,12 @@ pub(super) fn transposed(matrix: &Square<Expr>) -> Square<Expr> {
 /// The product of two matrices, whose entries stay sums of products; of a symmetric one each pair is one entry.
 pub(super) fn times(arena: &mut Arena, left: &Square<Expr>, right: &Square<Expr>) -> Square<Expr> {
     let n = left.len();
-    let mut entry = |i: usize, j: usize| {
+    let entry = |i: usize, j: usize| {
         let products: Vec<(Expr, Rational)> =
             (0..n).map(|k| (arena.mul(left[i][k], right[k][j]), Rational::ONE)).collect();
         arena.linear(&products)
     };
-    let mut product: Square<Expr> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    let mut product: Square<Expr> = table(n, entry);
     for (i, j) in (0..n).flat_map(|j| (0..j).map(move |i| (i, j))) {
         if product[i][j] != product[j][i] {
             let difference = arena.sub(product[i][j], product[j][i]);

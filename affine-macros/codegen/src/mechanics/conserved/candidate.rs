@@ -118,7 +118,6 @@ impl Candidate {
 }
 
 /// The quantities that exist in a chart.
-#[must_use]
 pub fn candidates(chart: &Chart) -> Vec<Candidate> {
     let exists = |c: &Candidate| {
         c.exists(chart.dim, chart.linear.is_some())

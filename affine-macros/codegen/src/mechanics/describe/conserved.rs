@@ -7,10 +7,8 @@ use crate::symbol::{Quantity, Symbol};
 
 /// A sum of multiples of entries of momenta: `Vort_12`.
 pub fn component(arena: &mut Arena, notation: &Notation, entries: &[Entry]) -> String {
-    let mut sum = Polynomial::zero();
-    for entry in entries {
-        sum.add_scaled(&written(arena, entry), &Rational::from(entry.factor));
-    }
+    let sum: Polynomial =
+        entries.iter().map(|entry| written(arena, entry).scaled(&Rational::from(entry.factor))).sum();
     let sentence = notation.polynomial(arena, &sum);
     notation.text(arena, &sentence)
 }

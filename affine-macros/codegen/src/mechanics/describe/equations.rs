@@ -211,7 +211,7 @@ fn affine_velocity(
     add(&trace_coefficient(h, iso), product([trace(x()), Sentence::One]));
     let mut skew = Sum::default();
     skew.extend([Summand::plus(x()), Summand::minus(x().transposed())]);
-    add(&iso.skew.scaled(&Rational::MINUS_ONE), skew.value());
+    add(&iso.skew.neg(), skew.value());
     add(&iso.casimir3, x().power(2));
     sum.of(omega)
 }

@@ -97,7 +97,6 @@ impl Forces {
     }
 
     /// The potentials that no formula in base functions gives, as summands of `H`.
-    #[must_use]
     pub fn potentials(&self) -> Vec<Sentence> {
         let is_potential = |custom: &&Custom| matches!(custom.role, Role::Potential { .. });
         self.customs.iter().filter(is_potential).map(symbol).collect()

@@ -1,6 +1,7 @@
 //! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
 
 use super::{Notation, Sentence, momentum, velocity};
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -85,7 +86,7 @@ fn is_inverse(
     (name, matrix): (&MatrixName, &[Vec<Expr>]),
     inverse: &[Vec<Polynomial>],
 ) -> bool {
-    let places = || (0..matrix.len()).flat_map(|i| (0..matrix.len()).map(move |j| (i, j)));
+    let places = || pairs(matrix.len());
     let named = |i: usize, j: usize| {
         let mut terms = inverse[i][j].terms();
         let alone = terms.len() == 1;

@@ -3,7 +3,7 @@
 use super::hamiltonian::pulled_back_momentum;
 use super::{Notation, Sentence, Sum, Summand, momentum, velocity};
 use crate::algebra::ring::{self, Square, difference, outer, times, transpose};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::notation::{commutator, letters, product, slope};
@@ -34,10 +34,7 @@ pub(super) fn known_forms(
     o: &Square<Polynomial>,
 ) -> Vec<Known> {
     let n = chart.dim;
-    let atoms = |rows: &Vec<Vec<Expr>>| -> Vec<Vec<Polynomial>> {
-        rows.iter().map(|row| row.iter().map(|e| Polynomial::atom(*e)).collect()).collect()
-    };
-    let (phi, m) = (atoms(&chart.phi.0), atoms(&chart.m.0));
+    let (phi, m) = (chart.placement(), chart.m.atoms());
     let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
     let commutators = Commutators::of(chart);
     let omega = || Sentence::from(velocity(chart.momentum));
@@ -84,7 +81,7 @@ fn translation(
             Known { value: sum.value(), shape: Shape::Other, components }
         };
     let one = Polynomial::constant(Rational::ONE);
-    let minus = inverse_mass.scaled(&Rational::MINUS_ONE);
+    let minus = inverse_mass.neg();
     let placement = || Sentence::from(letters::PLACEMENT);
     let spatial = || Sentence::from(letters::LINEAR_MOMENTUM);
     // p_hat, or phi^T p where p is the momentum of the chart.

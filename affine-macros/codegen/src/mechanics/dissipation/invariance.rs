@@ -1,7 +1,7 @@
 //! What a dissipation leaves as it is: rotations of space, pieces of `H` that commute.
 
-use crate::algebra::ring::{Square, skew, sum, table};
-use crate::algebra::{Polynomial, Rational};
+use crate::algebra::Polynomial;
+use crate::algebra::ring::{Square, pairs, skew, sum, table};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
@@ -13,7 +13,6 @@ use super::Dissipation;
 
 impl Dissipation {
     /// Does no rotation of space change `R`?
-    #[must_use]
     pub fn is_isotropic_in_space(&self) -> bool {
         self.parts.iter().all(|part| broken_by(&part.form, Side::Space, Group::Metric).is_none())
     }
@@ -21,7 +20,6 @@ impl Dissipation {
     /// May the piece `|W|^2/(2 mu)` of `H`, `W` the vorticity or the spin, be applied apart from the rest? So it is
     /// where the forces leave `W` at rest, do not see the part `-W/mu` of the velocity, and the flow of the piece
     /// leaves them as they are: its Lie bracket with them vanishes.
-    #[must_use]
     pub fn commutes_with_rotation(&self, chart: &Chart, h: &Hamiltonian, iso: &Isotropic) -> bool {
         let own = frame_of(chart);
         let centre =
@@ -44,14 +42,8 @@ impl Dissipation {
         }
         let piece = iso.skew_norm(&spin);
         chart.coordinates().into_iter().all(|z| {
-            let along = |f: &Polynomial| {
-                let mut sum = Polynomial::zero();
-                for (a, row) in force.iter().enumerate() {
-                    for (b, push) in row.iter().enumerate() {
-                        sum.add_product(&f.derivative(chart.m.0[a][b]), push, &Rational::ONE);
-                    }
-                }
-                sum
+            let along = |f: &Polynomial| -> Polynomial {
+                pairs(chart.dim).map(|(a, b)| f.derivative(chart.m.0[a][b]).mul(&force[a][b])).sum()
             };
             let own_rate = match z {
                 Coordinate::M(a, b) => force[a][b].clone(),

@@ -4,7 +4,7 @@
 //! `E G = (E phi)^T phi + phi^T E phi`: for `Sigma_hat`, `E_AB psi_Cj = -d_CB psi_Aj` and
 //! `E_AB G_CD = d_CA G_BD + d_DA G_CB`.
 
-use crate::algebra::ring::{Square, product, table, transpose};
+use crate::algebra::ring::{Square, dot, pairs, product, table, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::brackets::bracket;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -28,7 +28,7 @@ impl Action {
         let (inverse, green) = quantities.split_at(n * n);
         let psi = table(n, |a, i| Polynomial::atom(inverse[n * a + i]));
         let unit = |a: usize, b: usize| Polynomial::constant(Rational::from(i64::from(a == b)));
-        let places: Vec<(usize, usize)> = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).collect();
+        let places: Vec<(usize, usize)> = pairs(n).collect();
         let known = |value: &dyn Fn(usize, usize) -> Polynomial, sums: &Square<Polynomial>| -> Vec<_> {
             places.iter().map(|(a, b)| (value(*a, *b), sums[*a][*b].clone())).collect()
         };
@@ -40,12 +40,9 @@ impl Action {
             let of_inverse = product(&product(&psi, &moved), &psi);
             let of_green = product(&transpose(&moved), &phi);
             let mut image = moved.concat();
-            image.extend(of_inverse.concat().iter().map(|p| p.by_names(&units).scaled(&Rational::MINUS_ONE)));
-            for (c, d) in &places {
-                let mut both = of_green[*c][*d].clone();
-                both.add_scaled(&of_green[*d][*c], &Rational::ONE);
-                image.push(both.by_names(&strains));
-            }
+            image.extend(of_inverse.concat().iter().map(|p| p.by_names(&units).neg()));
+            let both = |(c, d): &(usize, usize)| of_green[*c][*d].add(&of_green[*d][*c]).by_names(&strains);
+            image.extend(places.iter().map(both));
             images.push(image);
         }
         Self { dim: n, quantities: [chart.phi.0.concat(), quantities].concat(), images }
@@ -53,22 +50,13 @@ impl Action {
 
     /// `E_ab f` of a polynomial in such quantities and others, which are held.
     pub(super) fn derivative(&self, f: &Polynomial, a: usize, b: usize) -> Polynomial {
-        let mut sum = Polynomial::zero();
-        let moved = &self.images[self.dim * a + b];
-        for (slope, moved) in f.gradient(&self.quantities).iter().zip(moved) {
-            if !slope.is_zero() && !moved.is_zero() {
-                sum.add_product(slope, moved, &Rational::ONE);
-            }
-        }
-        sum
+        dot(f.gradient(&self.quantities).iter().zip(&self.images[self.dim * a + b]))
     }
 }
 
 /// The entries of `psi = phi^-1` and of `G`.
 pub(super) fn of_the_placement(arena: &mut Arena, n: usize) -> Vec<Expr> {
     let mut list = Matrix::symbols(arena, Quantity::InversePlacement, n).0.concat();
-    list.extend(
-        (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).map(|(a, b)| Base::Green(a, b).symbol(arena)),
-    );
+    list.extend(pairs(n).map(|(a, b)| Base::Green(a, b).symbol(arena)));
     list
 }

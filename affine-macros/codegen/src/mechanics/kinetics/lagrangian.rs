@@ -5,7 +5,7 @@
 //! fixed velocity is `E T = s E w + E T|w`, `E` the [derivations](super::action) of the chart.
 
 use crate::algebra::ring::{Square, table};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::metric::Definitions;
 
@@ -85,9 +85,7 @@ impl Lagrangian {
         let written_out = table(self.chart.dim, |a, b| {
             let moved =
                 part.definitions.iter().flatten().map(|w| action.derivative(w, a, b).by_names(&words));
-            let mut force = chain(&own, moved);
-            force.add_scaled(&action.derivative(&part.energy, a, b), &Rational::ONE);
-            force
+            chain(&own, moved).add(&action.derivative(&part.energy, a, b))
         });
         let names = named(&part.momenta, momentum.clone(), &mut Definitions::new());
         let momentum: Vec<_> = names.into_iter().zip(momentum).collect();
@@ -110,18 +108,14 @@ impl Lagrangian {
 
     /// The Legendre transformation: what the parts share, `dT/dO` in the order of the momenta, and `T`; with names for `s` or
     /// without.
-    #[must_use]
     pub fn legendre(&self, by_names: bool) -> (Definitions, Vec<Polynomial>, Polynomial) {
         let mut shared = Definitions::new();
         let mut momentum = vec![Polynomial::zero(); self.conjugate.len()];
-        let mut energy = Polynomial::zero();
+        let energy: Polynomial = self.parts.iter().map(|part| &part.energy).sum();
         for part in &self.parts {
             let slopes = self.slopes(part, by_names);
             shared.extend(slopes.shared);
-            for (sum, m) in momentum.iter_mut().zip(&slopes.momentum) {
-                sum.add_scaled(m, &Rational::ONE);
-            }
-            energy.add_scaled(&part.energy, &Rational::ONE);
+            momentum.iter_mut().zip(&slopes.momentum).for_each(|(sum, m)| *sum = sum.add(m));
         }
         let each = |p: &Polynomial| self.placed(p);
         let shared = shared.iter().map(|(symbol, value)| (*symbol, each(value))).collect();
@@ -137,11 +131,7 @@ impl Lagrangian {
 
 /// `sum over k of slopes_k values_k`.
 fn chain(slopes: &[Polynomial], values: impl Iterator<Item = Polynomial>) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (slope, value) in slopes.iter().zip(values) {
-        sum.add_product(slope, &value, &Rational::ONE);
-    }
-    sum
+    slopes.iter().zip(values).map(|(slope, value)| slope.mul(&value)).sum()
 }
 
 /// The values by their names, where there are names; values that are symbols already stay what they are.

@@ -9,7 +9,7 @@
 
 use rustc_hash::FxHashSet;
 
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Coordinate;
 use crate::mechanics::constraint::Constraint;
@@ -81,13 +81,11 @@ impl Lagrangian {
             shared.extend(part.named().map(|(name, sum)| (name, sum.clone())));
         }
         let force = table(self.chart.dim, |a, b| {
-            let mut sum = Polynomial::zero();
-            for (part, found) in self.parts.iter().zip(parts) {
+            let forces = self.parts.iter().zip(parts).map(|(part, found)| {
                 let plain = written_out && part.definitions.is_none();
-                let force = if plain { &found.written_out } else { &found.force };
-                sum.add_scaled(&force[a][b], &Rational::ONE);
-            }
-            sum
+                if plain { &found.written_out[a][b] } else { &found.force[a][b] }
+            });
+            forces.sum()
         });
         Way { shared, force }
     }
@@ -137,8 +135,7 @@ impl Lagrangian {
         let slopes: Vec<_> = self.conjugate.iter().map(|(y, o)| (*y, Polynomial::atom(*o))).collect();
         let sum = |atom: Expr| {
             let place = self.conjugate.iter().position(|(y, _)| self.chart.symbol(*y) == atom)?;
-            let mut sum = Polynomial::zero();
-            parts.iter().for_each(|part| sum.add_scaled(&part.momentum[place].0, &Rational::ONE));
+            let sum: Polynomial = parts.iter().map(|part| &part.momentum[place].0).sum();
             Some(sum)
         };
         for (y, _) in &self.conjugate {
@@ -170,7 +167,7 @@ impl Lagrangian {
         if force.iter().flatten().chain(shared.iter().map(|(_, value)| value)).any(missing) {
             return None;
         }
-        let forces = (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+        let forces = pairs(n);
         let forces = forces.map(|(a, b)| (Coordinate::M(a, b), force[a][b].clone()));
         Some(Kinetics {
             chart: self.chart.clone(),

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use crate::algebra::linear;
+use crate::algebra::ring::upper;
 use crate::algebra::root::root;
 use crate::algebra::{Polynomial, Rational};
 
@@ -22,7 +23,6 @@ pub struct Axes {
 impl Axes {
     /// `d_k = g_kk - sum over i < k of d_i U_ik^2`, `U_kj = (g_kj - sum over i < k of d_i U_ik U_ij)/d_k`; `None` unless
     /// every `d_k` is positive.
-    #[must_use]
     pub fn of(metric: &[Vec<Rational>]) -> Option<Self> {
         let n = metric.len();
         let mut matrix = vec![vec![Rational::ZERO; n]; n];
@@ -49,11 +49,10 @@ impl Axes {
 
     /// The same places with 1 for every entry of `U` and `U^-1` that can differ from zero, where only the zeros of the
     /// metric are known.
-    #[must_use]
     pub fn pattern(metric: &[Vec<Polynomial>]) -> Self {
         let n = metric.len();
         let mut filled = vec![vec![false; n]; n];
-        for (k, j) in (0..n).flat_map(|k| (k..n).map(move |j| (k, j))) {
+        for (k, j) in upper(n) {
             filled[k][j] = k == j || !metric[k][j].is_zero() || (0..k).any(|i| filled[i][k] && filled[i][j]);
         }
         // U^-1 is a sum of products of entries above the diagonal.
@@ -71,7 +70,6 @@ impl Axes {
 
 /// `sqrt(product over k of d_k^e_k)`, exact where it is rational, to more than a double-double otherwise. Equal powers
 /// of equal roots are equal numbers: even exponents leave the root, and of the rest the squares of small primes do.
-#[must_use]
 pub fn root_of_product(squares: &[&Rational], exponents: &[i32]) -> Option<Rational> {
     let (mut outside, mut inside) = (Rational::ONE, Rational::ONE);
     for (square, exponent) in squares.iter().zip(exponents) {

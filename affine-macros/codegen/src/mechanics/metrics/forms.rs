@@ -113,12 +113,12 @@ impl Metrics {
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
             let number = rebased.len() + 1;
-            let mut entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
+            let entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
                 true => arena.constant(Rational::ZERO),
                 false => arena.symbol(Symbol::Prepared(number, i + 1, j + 1)),
             };
             let n = pattern.len();
-            let symbols = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+            let symbols = table(n, entry);
             rebased.push(Rebased { number, source });
             Matrix(symbols)
         })
@@ -141,11 +141,11 @@ fn to_prepare(
     let filled = changed(term, frame, [&space, &body], &ones);
     let number = rebased.len() + 1;
     let entries = given.iter().flatten().map(|entry| entry.expression(arena)).collect();
-    let mut symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
+    let symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
         true => arena.constant(Rational::ZERO),
         false => arena.symbol(Symbol::Prepared(number, r.min(s) + 1, r.max(s) + 1)),
     };
-    let symbols = (0..given.len()).map(|r| (0..given.len()).map(|s| symbol(r, s)).collect()).collect();
+    let symbols = table(given.len(), symbol);
     rebased.push(Rebased { number, source: Source::Form(term.kind, entries) });
     Matrix(symbols)
 }
@@ -164,12 +164,12 @@ impl Bases {
             }
             self.root(&exponents).map_or_else(Polynomial::zero, |root| rational[r][s].scaled(&root))
         };
-        let mut entry = |r: usize, s: usize| match rational[r][s].is_zero() {
+        let entry = |r: usize, s: usize| match rational[r][s].is_zero() {
             true => arena.constant(Rational::ZERO),
             false => scaled(r, s).expression(arena),
         };
         let size = given.len();
-        Matrix((0..size).map(|r| (0..size).map(|s| entry(r, s)).collect()).collect())
+        Matrix(table(size, entry))
     }
 
     fn congruent(&self, arena: &mut Arena, kinetic: &Kinetic, terms: &[Term]) -> Option<Congruent> {

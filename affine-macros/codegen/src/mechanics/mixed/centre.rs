@@ -9,7 +9,6 @@ use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
 use crate::mechanics::metric::{Definitions, inverse_placement};
-use crate::mechanics::shared::atoms;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Factorised, Quantity};
 
@@ -29,7 +28,6 @@ pub struct Masses {
 
 impl Masses {
     /// The masses of some energies.
-    #[must_use]
     pub fn of(parts: &[Kinetic]) -> Self {
         let mass = |frame: Frame| {
             let translation = |part: &Kinetic| part.translation.filter(|t| t.frame == frame);
@@ -40,32 +38,27 @@ impl Masses {
     }
 
     /// Both frames have a mass: the matrix depends on the placement.
-    #[must_use]
     pub fn are_mixed(&self) -> bool {
         self.body.is_some() && self.space.is_some()
     }
 
     /// There is no translation.
-    #[must_use]
     pub fn are_none(&self) -> bool {
         self.body.is_none() && self.space.is_none()
     }
 
     /// The masses, that of the body first.
-    #[must_use]
     pub fn list(&self) -> Vec<Expr> {
         self.body.into_iter().chain(self.space).collect()
     }
 
     /// The frame of the energy, of `x_dot` where there are two.
-    #[must_use]
     pub fn frame(&self) -> Option<Frame> {
         let body = self.body.map(|_| Frame::Body);
         self.space.map(|_| Frame::Space).or(body)
     }
 
     /// The mass, where there is one.
-    #[must_use]
     pub fn single(&self) -> Option<Expr> {
         self.body.xor(self.space)
     }
@@ -104,10 +97,7 @@ impl Masses {
         ]
         .map(|of| arena.components(of, n));
         let mut shared = Definitions::new();
-        let reciprocal = |arena: &mut Arena, mass: Expr| {
-            let reciprocal = arena.pow(mass, -1)?;
-            Some(Polynomial::normal_form(arena, reciprocal))
-        };
+        let reciprocal = |arena: &mut Arena, mass: Expr| Polynomial::reciprocal(arena, mass);
         match (self.body, self.space) {
             (None, None) => return None,
             (None, Some(mass)) => {
@@ -160,8 +150,8 @@ impl Masses {
         let n = self.dim;
         let half = Rational::HALF;
         let part = |arena: &mut Arena, mass: Expr, velocities: Vec<Expr>| {
-            let mut energy = Polynomial::zero();
-            velocities.iter().for_each(|v| energy.add_term(vec![*v, *v], &half));
+            let energy: Polynomial =
+                velocities.iter().map(|v| Polynomial::term(vec![*v, *v], half.clone())).sum();
             let energy = energy.mul(&Polynomial::normal_form(arena, mass));
             let (slopes, momenta) = (Vec::new(), Vec::new());
             Part { velocities, definitions: None, energy, slopes, momenta }
@@ -169,7 +159,7 @@ impl Masses {
         let mut parts = Vec::new();
         parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
-            let psi = atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n));
+            let psi = Matrix::symbols(arena, Quantity::InversePlacement, n).atoms();
             let v_hat: Vec<Expr> = arena.components(Quantity::ComovingCentreVelocity, n);
             let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
             let momenta = shares(arena, Aspect::InTheBody, &chart.p);

@@ -8,7 +8,7 @@
 
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, components, pairing, upper};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::group_point::GroupPoint;
@@ -46,7 +46,6 @@ pub struct SymmetricBlock {
 
 impl SymmetricBlock {
     /// Its diagonal.
-    #[must_use]
     pub fn diagonal(&self) -> Vec<&Polynomial> {
         let mut at = 0;
         (0..self.size)
@@ -87,15 +86,11 @@ impl Factorisation {
     }
 
     /// The blocks, each once.
-    #[must_use]
     pub fn blocks(&self) -> Vec<(SymmetricBlock, usize)> {
         let mut list: Vec<(SymmetricBlock, usize)> = Vec::new();
         for block in &self.blocks {
             let size = block.form.len();
-            let upper: Vec<Polynomial> = (0..size)
-                .flat_map(|i| (i..size).map(move |j| (i, j)))
-                .map(|(i, j)| block.form[i][j].clone())
-                .collect();
+            let upper: Vec<Polynomial> = upper(size).map(|(i, j)| block.form[i][j].clone()).collect();
             match list.iter_mut().find(|(known, _)| known.upper == upper) {
                 Some((_, count)) => *count += 1,
                 None => list.push((SymmetricBlock { upper, size }, 1)),
@@ -115,11 +110,8 @@ impl Factorisation {
     ) {
         let mut sums = vec![Polynomial::zero(); right.len()];
         for (which, block) in self.blocks.iter().enumerate() {
-            let along = |direction: &Direction| {
-                let mut sum = Polynomial::zero();
-                direction.iter().for_each(|(k, weight)| sum.add_scaled(&right[*k], weight));
-                sum
-            };
+            let along =
+                |direction: &Direction| direction.iter().map(|(k, weight)| right[*k].scaled(weight)).sum();
             let right: Vec<Polynomial> = block.basis.iter().map(along).collect();
             let values = block.solve(arena, (of, which), &right, solution, shared);
             for (direction, value) in block.basis.iter().zip(&values) {
@@ -193,22 +185,6 @@ fn quantity(arena: &mut Arena, symbol: Symbol, value: Polynomial, shared: &mut D
     Polynomial::atom(symbol)
 }
 
-/// Indices that the matrix connects.
-fn components(matrix: &Square<Polynomial>) -> Vec<Vec<usize>> {
-    let size = matrix.len();
-    let mut component: Vec<usize> = (0..size).collect();
-    for (i, j) in (0..size).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        if !matrix[i][j].is_zero() {
-            let (keep, drop) = (component[i].min(component[j]), component[i].max(component[j]));
-            component.iter_mut().filter(|c| **c == drop).for_each(|c| *c = keep);
-        }
-    }
-    (0..size)
-        .map(|root| (0..size).filter(|i| component[*i] == root).collect::<Vec<_>>())
-        .filter(|members| !members.is_empty())
-        .collect()
-}
-
 /// A basis of a block in an order without vanishing pivots, and the form in it.
 fn ordered(
     arena: &Arena,
@@ -243,14 +219,6 @@ fn ordered(
     }
     let form = basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
     Some((basis, form))
-}
-
-fn pairing(matrix: &Square<Polynomial>, a: &Direction, b: &Direction) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for (k, wk) in a {
-        b.iter().for_each(|(l, wl)| sum.add_scaled(&matrix[*k][*l], &(wk * wl)));
-    }
-    sum
 }
 
 /// The form on the open directions once those of the basis are eliminated, at a point.

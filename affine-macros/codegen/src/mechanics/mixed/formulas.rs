@@ -21,7 +21,6 @@ pub struct ForceNames {
 
 impl ForceNames {
     /// Those of a chart.
-    #[must_use]
     pub fn of(chart: &Chart, forces: &Forces) -> Self {
         let mut names = Self::default();
         forces.name_on(chart, &mut names.on_linear, &mut names.on_affine);
@@ -92,7 +91,6 @@ pub fn internal_energy(arena: &mut Arena, confined: bool) -> Sentence {
 }
 
 /// The Legendre transformation and the balance of `Pi`, in the parts that the energy has.
-#[must_use]
 pub fn internal_equations(
     arena: &mut Arena,
     notation: &Notation,
@@ -104,7 +102,7 @@ pub fn internal_equations(
     if masses.body.is_some() {
         let mut sum = Sum::default();
         sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
-        let space = space_mass(arena, masses).scaled(&Rational::MINUS_ONE);
+        let space = space_mass(arena, masses).neg();
         sum.add(arena, notation, &space, rate(letters::CENTRE));
         let own = sum.value().transposed();
         force.push(Summand::minus(product([placement().inverse(), rate(letters::CENTRE), own])));
@@ -123,7 +121,6 @@ pub fn internal_equations(
 }
 
 /// The Legendre transformation on a group and the balance of `Sigma_hat`, in the parts that the energy has.
-#[must_use]
 pub fn confined_equations(
     arena: &mut Arena,
     notation: &Notation,
@@ -134,7 +131,7 @@ pub fn confined_equations(
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
     if let Some(mass) = masses.body {
-        let mass = Polynomial::normal_form(arena, mass).scaled(&Rational::MINUS_ONE);
+        let mass = Polynomial::normal_form(arena, mass).neg();
         let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
         force.add(arena, notation, &mass, product([v(), v().transposed()]));
     }
@@ -185,7 +182,6 @@ fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> O
 }
 
 /// The velocity of the centre of mass and the balance of `p`.
-#[must_use]
 pub fn centre_equations(
     arena: &mut Arena,
     notation: &Notation,

@@ -54,10 +54,10 @@ impl Internal {
         let chart = Chart::new(arena, mixed.dim, momentum, None).under(mixed.constraint);
         let Solved { shared, components, factorisation } = Solved::new(arena, mixed, &chart)?;
         let half = Rational::HALF;
-        let mut energy = Polynomial::zero();
-        for (momentum, speed) in &components {
-            energy.add_product(momentum, &Polynomial::atom(*speed), &half);
-        }
+        let energy: Polynomial = components
+            .iter()
+            .map(|(momentum, speed)| momentum.mul(&Polynomial::atom(*speed)).scaled(&half))
+            .sum();
         let on_the_group = Placed::new(arena, mixed.dim, mixed.constraint).values(arena);
         let lagrangian = mixed.lagrangian(arena, &chart, on_the_group, true);
         let velocity = Matrix::symbols(arena, frame_of(&chart).velocity(), mixed.dim);
@@ -65,13 +65,11 @@ impl Internal {
     }
 
     /// The group that the motion is confined to.
-    #[must_use]
     pub fn group(&self) -> Option<Constraint> {
         self.lagrangian.chart.confined
     }
 
     /// The frame of velocity and momentum.
-    #[must_use]
     pub fn frame(&self) -> Frame {
         frame_of(&self.lagrangian.chart)
     }

@@ -4,7 +4,7 @@
 //! velocities of another frame its matrix is the pull-back by that linear map, a polynomial in what is known of the
 //! placement: on `phi_dot` in `phi^-1`, on a basis of the Lie algebra of a group in `phi` as well, which is short there.
 
-use crate::algebra::ring::{Square, product, sum, table, transpose};
+use crate::algebra::ring::{self, Square, pairs, product, sum, table, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::direction::{BasisVector, entries};
 use crate::mechanics::kinetic::Kinetic;
@@ -34,12 +34,12 @@ impl Metric {
         let mut centre = Vec::new();
         for translation in parts.iter().filter_map(|part| part.translation) {
             let mass = Polynomial::normal_form(arena, translation.mass);
-            let mut entry = |i: usize, j: usize| match translation.frame {
+            let entry = |i: usize, j: usize| match translation.frame {
                 Frame::Body => placed.cauchy(arena, i, j).mul(&mass),
                 _ if i == j => mass.clone(),
                 _ => Polynomial::zero(),
             };
-            let form = (0..dim).map(|i| (0..dim).map(|j| entry(i, j)).collect()).collect();
+            let form = table(dim, entry);
             centre = if centre.is_empty() { form } else { sum(&centre, &form) };
         }
         Self { shared: placed.shared, internal, centre }
@@ -111,7 +111,7 @@ impl Placed {
                     let block = table(n, |c, d| form[n * c + a][n * d + b].clone());
                     self.between_columns(arena, &block, i, j)
                 };
-                let places = || (0..n).flat_map(|i| (0..n).map(move |a| (i, a)));
+                let places = || pairs(n);
                 places().map(|row| places().map(|column| entry(row, column)).collect()).collect()
             }
             _ => {
@@ -156,11 +156,7 @@ impl Placed {
         if *h == scalar && !h[0][0].is_zero() {
             return h[0][0].mul(&self.cauchy(arena, i, j));
         }
-        let mut sum = Polynomial::zero();
-        for (c, d) in (0..n).flat_map(|c| (0..n).map(move |d| (c, d))) {
-            sum.add_product(&h[c][d], &self.inverse[c][i].mul(&self.inverse[d][j]), &Rational::ONE);
-        }
-        sum
+        pairs(n).map(|(c, d)| h[c][d].mul(&self.inverse[c][i].mul(&self.inverse[d][j]))).sum()
     }
 
     /// `C_ij = psi_Ai psi_Aj`, by a name that is defined once.
@@ -168,8 +164,7 @@ impl Placed {
         let (i, j) = (i.min(j), i.max(j));
         let symbol = arena.symbol(Quantity::Cauchy.at([i + 1, j + 1]));
         if !self.shared.iter().any(|(known, _)| *known == symbol) {
-            let mut value = Polynomial::zero();
-            self.inverse.iter().for_each(|row| value.add_product(&row[i], &row[j], &Rational::ONE));
+            let value: Polynomial = self.inverse.iter().map(|row| row[i].mul(&row[j])).sum();
             self.shared.push((symbol, value));
         }
         Polynomial::atom(symbol)
@@ -189,7 +184,7 @@ impl Placed {
         // One name for both triangles.
         let upper = table(n, |a, b| value[a.min(b)][a.max(b)].clone());
         let mut result = upper.clone();
-        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+        for (a, b) in ring::upper(n) {
             let symbol = arena.symbol(Quantity::SpaceInertia.at([a + 1, b + 1]));
             self.shared.push((symbol, upper[a][b].clone()));
             result[a][b] = Polynomial::atom(symbol);
@@ -218,9 +213,7 @@ fn by_rows(
 
 /// `sum over the entries of e of weight value(place)`.
 pub(super) fn along(e: &BasisVector, value: impl Fn(usize) -> Polynomial) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    e.entries.iter().for_each(|(k, weight)| sum.add_scaled(&value(*k), weight));
-    sum
+    e.entries.iter().map(|(k, weight)| value(*k).scaled(weight)).sum()
 }
 
 /// A direction as a matrix.
@@ -245,7 +238,7 @@ fn paired(form: &Square<Polynomial>, velocities: &[Square<Polynomial>]) -> Squar
 /// Is a form over `Om` the same for every row of `Om`, and free of products of two rows: `1/2 tr(Om J Om^T)`?
 pub(super) fn same_blocks(form: &Square<Polynomial>, n: usize) -> bool {
     let entry = |i: usize, k: usize, j: usize, l: usize| &form[n * i + k][n * j + l];
-    let indices = || (0..n).flat_map(|k| (0..n).map(move |l| (k, l)));
+    let indices = || pairs(n);
     indices().all(|(i, j)| {
         indices().all(|(k, l)| match i == j {
             true => entry(i, k, i, l) == entry(0, k, 0, l),

@@ -1,12 +1,12 @@
 //! The energies of a sum as parts in the velocities of a chart.
 
-use crate::algebra::ring::{Square, product};
+use crate::algebra::ring::{Square, pairs, product};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Lagrangian, Part};
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::{atoms, frame_of};
+use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Quantity};
 
@@ -25,7 +25,7 @@ impl Mixed {
     ) -> Lagrangian {
         let n = self.dim;
         let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), n);
-        let conjugate = (0..n).flat_map(|a| (0..n).map(move |b| (a, b)));
+        let conjugate = pairs(n);
         let conjugate = conjugate.map(|(a, b)| (Coordinate::M(a, b), velocity.0[b][a])).collect();
         let part = |energy: &Kinetic| internal(arena, chart, &velocity, energy, through_green);
         let parts = self.internal.iter().map(part).collect();
@@ -53,7 +53,7 @@ fn internal(
         return own;
     }
     let (phi, psi, o) =
-        (chart.placement(), atoms(&Matrix::symbols(arena, Quantity::InversePlacement, n)), atoms(velocity));
+        (chart.placement(), Matrix::symbols(arena, Quantity::InversePlacement, n).atoms(), velocity.atoms());
     let form = energy.form();
     let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
     if through_green && stands_in_the_body && same_blocks(&form, n) {
@@ -80,8 +80,8 @@ fn by_rows(form: &Square<Polynomial>, oh: &Square<Polynomial>, green: &Square<Po
     let n = oh.len();
     let half = Rational::HALF;
     let mut energy = Polynomial::zero();
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-        for (c, d) in (0..n).flat_map(|c| (0..n).map(move |d| (c, d))) {
+    for (a, b) in pairs(n) {
+        for (c, d) in pairs(n) {
             energy.add_product(&form[c][d].mul(&green[a][b]), &oh[a][c].mul(&oh[b][d]), &half);
         }
     }

@@ -1,12 +1,11 @@
 //! What is known of a placement, of all of GL(n) or of a group that the motion is confined to.
 
-use crate::algebra::ring::{Square, adjugate, table, transpose};
+use crate::algebra::ring::{Square, adjugate, table, transpose, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
 use crate::mechanics::metric::{Definitions, inverse_placement};
 use crate::mechanics::potential::Base;
-use crate::mechanics::shared::atoms;
 use crate::mechanics::weight::Weight;
 use crate::symbol::{Quantity, Symbol};
 
@@ -25,7 +24,7 @@ pub(super) struct Placed {
 
 impl Placed {
     pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
-        let phi = atoms(&Matrix::symbols(arena, Quantity::Placement, n));
+        let phi = Matrix::symbols(arena, Quantity::Placement, n).atoms();
         let unit =
             |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
@@ -33,7 +32,7 @@ impl Placed {
             None => {
                 let (inverse, shared) = inverse_placement(arena, n);
                 let green = green(arena, n);
-                Self { inverse: atoms(&inverse), green, inverse_square: None, shared, phi }
+                Self { inverse: inverse.atoms(), green, inverse_square: None, shared, phi }
             }
             Some(Constraint::Rigid) => Self {
                 inverse: transpose(&phi),
@@ -68,7 +67,7 @@ impl Placed {
         let n = self.phi.len();
         let inverse = Matrix::symbols(arena, Quantity::InversePlacement, n).0.concat();
         let mut list: Definitions = inverse.into_iter().zip(self.inverse.concat()).collect();
-        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+        for (a, b) in upper(n) {
             list.push((Base::Green(a, b).symbol(arena), self.green[a][b].clone()));
         }
         list.retain(|(symbol, value)| *value != Polynomial::atom(*symbol));
@@ -78,17 +77,16 @@ impl Placed {
 
 /// `G` as symbols.
 pub(super) fn green(arena: &mut Arena, n: usize) -> Square<Polynomial> {
-    let mut entry = |a: usize, b: usize| Polynomial::atom(Base::Green(a, b).symbol(arena));
-    (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+    let entry = |a: usize, b: usize| Polynomial::atom(Base::Green(a, b).symbol(arena));
+    table(n, entry)
 }
 
 /// `G = phi^T phi`.
 pub(super) fn green_definitions(arena: &mut Arena, n: usize) -> Definitions {
     let phi = Matrix::symbols(arena, Quantity::Placement, n);
     let mut list = Definitions::new();
-    for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
-        let mut value = Polynomial::zero();
-        phi.0.iter().for_each(|row| value.add_term(vec![row[a], row[b]], &Rational::ONE));
+    for (a, b) in upper(n) {
+        let value: Polynomial = phi.0.iter().map(|row| Polynomial::monomial([row[a], row[b]])).sum();
         list.push((Base::Green(a, b).symbol(arena), value));
     }
     list

@@ -15,7 +15,6 @@ pub struct Formula {
 
 impl Notation<'_> {
     /// A sentence as it is asked for.
-    #[must_use]
     pub fn printed(&self, arena: &Arena, sentence: &Sentence) -> Formula {
         let latex = self.in_latex.then(|| self.latex(arena, sentence));
         Formula { text: self.text(arena, sentence), latex }

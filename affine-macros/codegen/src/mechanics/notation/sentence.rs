@@ -7,6 +7,7 @@ use crate::algebra::{Arena, Expr};
 
 /// A formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[must_use]
 pub enum Sentence {
     /// Nothing but a number, or an expression in symbols of the mechanics and fields.
     Scalar(Expr),

@@ -99,7 +99,7 @@ fn signed(arena: &mut Arena, notation: &Notation, coefficient: &Polynomial) -> O
         return None;
     }
     let negative = coefficient.terms().all(|(_, c)| c.is_negative());
-    let size = if negative { coefficient.scaled(&Rational::MINUS_ONE) } else { coefficient.clone() };
+    let size = if negative { coefficient.neg() } else { coefficient.clone() };
     let size = size.expression(arena);
     Some((negative, notation.through_powers(arena, size)))
 }

@@ -236,7 +236,6 @@ pub(super) fn written(symbol: &Symbol) -> Option<[Written; 2]> {
 }
 
 /// Is a word of a formula a symbol, a differential of one, or a function?
-#[must_use]
 pub fn is_symbol(word: &str) -> bool {
     let is_one = |word: &str| SYMBOLS.iter().any(|symbol| index(symbol.text, word).is_some());
     FUNCTIONS.contains(&word) || is_one(word) || word.strip_prefix('d').is_some_and(is_one)

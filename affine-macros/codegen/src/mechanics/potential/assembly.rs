@@ -1,6 +1,6 @@
 //! The forces on the affine momentum, put together from the slopes of a potential.
 
-use crate::algebra::ring::{Square, table, transpose};
+use crate::algebra::ring::{Square, pairs, table, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -39,7 +39,7 @@ impl Draft<'_> {
             ) {
                 continue;
             }
-            for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+            for (i, a) in pairs(n) {
                 let entry = direction(*base, self.along, &tensors, i, a);
                 if !entry.is_zero() {
                     let slope = self.coefficient(arena, *base, slope);
@@ -133,7 +133,7 @@ impl Draft<'_> {
         let offset = if splits { self.named(arena, Quantity::Offset, &offset) } else { Polynomial::zero() };
         let Means::Strains(counting) = &self.means else { return force };
         let strains = &counting.strains;
-        for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+        for (i, a) in pairs(n) {
             let entry = &mut force[i][a];
             if splits && i == a {
                 entry.add_product(&offset, &tensors.phi[a][a], &Rational::ONE);
@@ -169,7 +169,7 @@ impl Draft<'_> {
     ) -> Square<Polynomial> {
         let n = self.chart.dim;
         let mut force = self.empty();
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             let (c, d) = (a.min(b), a.max(b));
             let form = &stress[c][d];
             let bare = form.terms().all(|(monomial, k)| monomial.len() == 1 && k.abs().is_one());
@@ -247,7 +247,7 @@ impl Draft<'_> {
         swelling.add_product(&of_mean, &Polynomial::atom(trace), &Rational::MINUS_ONE);
         let swelling = self.named(arena, Quantity::Swelling, &swelling);
         let mut force = self.empty();
-        for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+        for (i, a) in pairs(n) {
             let (phi, cofactor, entry) = (&tensors.phi[i][a], &tensors.cofactors[i][a], &mut force[i][a]);
             if i != a {
                 entry.add_product(&slope, phi, &Rational::ONE);
@@ -287,7 +287,7 @@ impl Draft<'_> {
             mean = Polynomial::atom(arena.symbol(Quantity::MeanSquareStretch));
             about = strains.deviator(arena);
         } else {
-            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            for (i, j) in pairs(n) {
                 about[i][j] = strains.strain(arena, i, j);
             }
         }
@@ -300,13 +300,12 @@ impl Draft<'_> {
         let third = self.named(arena, Base::TraceOfCube.slope(), &d);
         let mut stress = self.empty();
         let Means::Strains(counting) = &self.means else { return stress };
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             if !d.is_zero() {
                 stress[a][b].add_product(&third, &counting.strains.cube(arena, a, b), &Rational::ONE);
             }
             stress[a][b].add_product(&along, &about[a][b], &Rational::ONE);
-            let mut square = Polynomial::zero();
-            (0..n).for_each(|c| square.add_product(&about[a][c], &about[c][b], &Rational::ONE));
+            let square: Polynomial = (0..n).map(|c| about[a][c].mul(&about[c][b])).sum();
             stress[a][b].add_product(&second, &square, &Rational::ONE);
             if a == b {
                 stress[a][b].add_scaled(&offset, &Rational::ONE);
@@ -325,7 +324,7 @@ impl Draft<'_> {
         let Means::Strains(counting) = &self.means else { return self.empty() };
         let (products, definitions) = counting.strains.times_inverse(arena);
         let mut stress = self.empty();
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             stress[a][b].add_product(&along, &counting.strains.strain(arena, a, b), &Rational::ONE);
             stress[a][b].add_product(&second, &products[a][b], &Rational::MINUS_ONE);
             if a == b {
@@ -348,7 +347,7 @@ impl Draft<'_> {
             if counts && isotropic {
                 continue;
             }
-            for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            for (a, b) in pairs(n) {
                 let entry = direction(*base, self.along, &tensors, a, b);
                 if !entry.is_zero() {
                     let slope = self.coefficient(arena, *base, slope);

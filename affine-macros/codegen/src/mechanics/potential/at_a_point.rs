@@ -1,6 +1,7 @@
 //! The value of a potential at a point, without cancellation near the undeformed state.
 
 use crate::algebra::fault::never_missing;
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
@@ -72,7 +73,7 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Vec<(Expr, Polynomial)>, 
     let n = chart.dim;
     let mut shared = Vec::new();
     let mut excess = vec![vec![Polynomial::zero(); n]; n];
-    for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
+    for (i, a) in pairs(n) {
         excess[i][a] = Polynomial::atom(chart.phi.0[i][a]);
         if i == a {
             let symbol = arena.symbol(Quantity::Excess.at([i + 1]));
@@ -83,7 +84,7 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Vec<(Expr, Polynomial)>, 
         }
     }
     let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+    for (a, b) in pairs(n) {
         let symbol = arena.symbol(Quantity::Strain.at([a.min(b) + 1, a.max(b) + 1]));
         if a <= b {
             let mut strain = green(&excess, a, b);

@@ -1,5 +1,6 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
@@ -25,20 +26,17 @@ pub struct OnAxes {
 
 impl Potential {
     /// The first rotation that changes the potential: its side and plane, axes from 1.
-    #[must_use]
     pub fn anisotropy(&self) -> Option<(Side, (usize, usize))> {
         let turned = |side| self.invariance.changed_by(side).map(|(a, b)| (side, (a + 1, b + 1)));
         turned(Side::Space).or_else(|| turned(Side::Body))
     }
 
     /// Does it depend on `q = ln(det phi)/n` alone?
-    #[must_use]
     pub fn is_dilatational(&self) -> bool {
         self.slopes.iter().all(|(base, _)| *base == Base::MeanLogStretch)
     }
 
     /// Does it depend on `q_1, .., q_n` alone?
-    #[must_use]
     pub fn is_of_places(&self) -> bool {
         let is_place = |base: &Base| matches!(base, Base::LogStretch(_) | Base::MeanLogStretch);
         self.slopes.iter().all(|(base, _)| is_place(base)) && !self.depends_on_time()
@@ -105,7 +103,7 @@ impl OnAxes {
 
 /// Symbols of entries beside the diagonal.
 fn off_diagonal(arena: &mut Arena, n: usize) -> Vec<Expr> {
-    let pairs = (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).filter(|(a, b)| a != b);
+    let pairs = pairs(n).filter(|(a, b)| a != b);
     pairs
         .flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b), Base::Placement(a, b)])
         .map(|base| base.symbol(arena))
@@ -155,7 +153,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
         // A symbol is not the number zero.
         list.push((inverse, Polynomial::atom(arena.reciprocal(*stretch))));
         let square = arena.symbol(Quantity::StretchSquared.at([a + 1]));
-        list.push((square, Polynomial::term(vec![*stretch, *stretch], Rational::ONE)));
+        list.push((square, Polynomial::monomial([*stretch, *stretch])));
         trace.add_term(vec![square], &Rational::ONE);
         of_square.add_term(vec![square, square], &Rational::ONE);
         of_cube.add_term(vec![square, square, square], &Rational::ONE);

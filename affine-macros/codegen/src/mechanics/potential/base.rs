@@ -1,5 +1,6 @@
 //! The functions of placement and position that potentials are written in.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -47,9 +48,12 @@ pub(super) enum Along {
 }
 
 impl Base {
+    /// The traces of `G`, of its square and of its cube.
+    pub(super) const TRACES: [Self; 3] = [Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];
+
     /// All base functions in dimension `n`.
     pub fn all(n: usize) -> Vec<Self> {
-        let pairs = || (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)));
+        let pairs = || pairs(n);
         let upper = || pairs().filter(|(a, b)| a <= b);
         let mut list = vec![Self::MeanLogStretch, Self::Trace, Self::TraceOfSquare, Self::TraceOfCube];
         list.extend((0..n).map(Self::LogStretch));

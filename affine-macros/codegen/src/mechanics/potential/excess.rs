@@ -1,6 +1,6 @@
 //! `tr(G/D^2) - n`, of second order in the strain, without the cancellation to second order.
 
-use crate::algebra::ring::{Ring, Square, adjugate};
+use crate::algebra::ring::{Ring, Square, adjugate, pairs};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -51,7 +51,7 @@ impl Isochoric {
         list.push((mean, Polynomial::term(self.trace.clone(), nth)));
         let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
         let mut square = Polynomial::zero();
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             let entry = arena.symbol(Quantity::IsochoricDeviator.at([a.min(b) + 1, a.max(b) + 1]));
             if a <= b {
                 list.push((entry, self.deviator[a][b].clone()));

@@ -56,12 +56,6 @@ impl Potential {
 
 /// Does it contain a function of an argument that is `wanted`?
 fn applies(arena: &Arena, expr: Expr, wanted: &dyn Fn(Function, Expr) -> bool) -> bool {
-    match arena.node(expr) {
-        Node::Constant(_) | Node::Symbol(_) => false,
-        Node::Sum(_, terms) => terms.iter().any(|(term, _)| applies(arena, *term, wanted)),
-        Node::Product(factors) => factors.iter().any(|(base, _)| applies(arena, *base, wanted)),
-        Node::Function(function, argument) => {
-            wanted(*function, *argument) || applies(arena, *argument, wanted)
-        }
-    }
+    let own = matches!(*arena.node(expr), Node::Function(function, argument) if wanted(function, argument));
+    own || arena.any_part(expr, &mut |part| applies(arena, part, wanted))
 }

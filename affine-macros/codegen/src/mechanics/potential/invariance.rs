@@ -3,7 +3,7 @@
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, outer, product, table, times, transpose};
+use crate::algebra::ring::{Ring, Square, above_diagonal, outer, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::{Candidate, Momenta};
@@ -108,7 +108,7 @@ impl Evidence {
     pub(super) fn changed_by(&self, side: Side) -> Option<(usize, usize)> {
         let momentum = if side == Side::Space { Candidate::Spin } else { Candidate::Vorticity };
         let changes = |k: usize| self.points.iter().any(|point| point.entries(momentum)[k].is_nonzero());
-        let planes = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
+        let planes = above_diagonal(self.dim);
         planes.enumerate().find(|(k, _)| changes(*k)).map(|(_, plane)| plane)
     }
 }

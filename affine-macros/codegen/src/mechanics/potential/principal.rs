@@ -25,7 +25,7 @@ impl Principal<Polynomial> {
     pub(super) fn new(arena: &mut Arena, n: usize) -> Self {
         let [axis, stretched] =
             [Quantity::Axis, Quantity::StretchedAxis].map(|of| Matrix::symbols(arena, of, n).0);
-        let product = |factors: Vec<Expr>| Polynomial::term(factors, Rational::ONE);
+        let product = |factors: Vec<Expr>| Polynomial::monomial(factors);
         let each = |entry: &dyn Fn(usize, usize, usize) -> Vec<Expr>| {
             (0..n).map(|k| table(n, |a, b| product(entry(k, a, b)))).collect()
         };
@@ -107,5 +107,5 @@ pub(super) fn inverse_stretch(arena: &mut Arena, k: usize) -> Expr {
 /// `1/Q_k^2`
 pub(super) fn inverse_square(arena: &mut Arena, k: usize) -> Polynomial {
     let inverse = inverse_stretch(arena, k);
-    Polynomial::term(vec![inverse, inverse], Rational::ONE)
+    Polynomial::monomial([inverse, inverse])
 }

@@ -1,6 +1,7 @@
 //! `x . Ct x = |y|^2` with the position pulled back to the body, `y = phi^T x`: energies of tides and of gravity gradients are
 //! functions of it, and their forces `c x y^T` and `c phi y` need none of the entries of `Ct`.
 
+use crate::algebra::ring::upper;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::symbol::Quantity;
@@ -31,7 +32,7 @@ impl PulledBack {
             slopes.iter().find(|(base, _)| *base == Base::Finger(i, j)).map(|(_, slope)| slope)
         };
         let slope = by(0, 0)?.over(&[first; 2])?;
-        for (i, j) in (0..n).flat_map(|i| (i..n).map(move |j| (i, j))) {
+        for (i, j) in upper(n) {
             let number = Rational::from(if i == j { 1 } else { 2 });
             if *by(i, j)? != slope.mul(&Polynomial::term(vec![x[i], x[j]], number)) {
                 return None;
@@ -58,21 +59,17 @@ impl PulledBack {
 
     /// `(Ct x)_i`.
     fn pushed_forward(&self, arena: &mut Arena, i: usize) -> Polynomial {
-        let mut row = Polynomial::zero();
-        for (j, x) in self.x.iter().enumerate() {
-            row.add_term(vec![Base::Finger(i, j).symbol(arena), *x], &Rational::ONE);
-        }
-        row
+        self.x
+            .iter()
+            .enumerate()
+            .map(|(j, x)| Polynomial::monomial([Base::Finger(i, j).symbol(arena), *x]))
+            .sum()
     }
 
     /// What the quantities stand for.
     pub(super) fn definitions(&self, chart: &Chart) -> Vec<(Expr, Polynomial)> {
-        let product = |left: Expr, right: Expr| Polynomial::term(vec![left, right], Rational::ONE);
-        let sum = |terms: &mut dyn Iterator<Item = Polynomial>| {
-            let mut sum = Polynomial::zero();
-            terms.for_each(|term| sum.add_scaled(&term, &Rational::ONE));
-            sum
-        };
+        let product = |left: Expr, right: Expr| Polynomial::monomial([left, right]);
+        let sum = |terms: &mut dyn Iterator<Item = Polynomial>| terms.sum();
         let phi = &chart.phi.0;
         let n = chart.dim;
         let mut list = Vec::new();

@@ -114,15 +114,6 @@ fn rewritten_once(arena: &mut Arena, expr: Expr, value: &Better, done: &mut FxHa
         return *done;
     }
     let rewritten = match arena.node(expr).clone() {
-        Node::Constant(_) | Node::Symbol(_) => return expr,
-        Node::Sum(constant, terms) => {
-            let constant = arena.constant(constant);
-            let mut summands = vec![(constant, Rational::ONE)];
-            for (term, c) in terms {
-                summands.push((rewritten_once(arena, term, value, done), c));
-            }
-            arena.linear(&summands)
-        }
         Node::Product(factors) => {
             let mut product = Vec::new();
             for (base, exponent) in factors {
@@ -138,13 +129,15 @@ fn rewritten_once(arena: &mut Arena, expr: Expr, value: &Better, done: &mut FxHa
             // The bases were not the number zero, and keep their values.
             arena.certain_product(&product)
         }
-        Node::Function(function, argument) => match value(arena, function, argument, 1) {
-            Some(known) => known,
-            None => {
-                let argument = rewritten_once(arena, argument, value, done);
-                arena.apply(function, argument)
-            }
-        },
+        node => {
+            let known = match node {
+                Node::Function(function, argument) => value(arena, function, argument, 1),
+                _ => None,
+            };
+            known.unwrap_or_else(|| {
+                arena.rebuilt(expr, &mut |arena, part| rewritten_once(arena, part, value, done))
+            })
+        }
     };
     done.insert(expr, rewritten);
     rewritten

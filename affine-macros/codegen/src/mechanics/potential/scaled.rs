@@ -2,13 +2,13 @@
 //! what is of degree 0 the powers cancel before they leave the range of numbers.
 
 use crate::algebra::arena::Node;
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs, table, upper};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::symbol::Quantity;
 
 use super::base::Base;
-use super::tensors::{UNIT_SQUARES, definitions_of_square, finger, green, squares};
+use super::tensors::{UNIT_SQUARES, definitions_of_square, finger, green, squares, traces};
 
 impl Base {
     /// The power of `D` in it.
@@ -55,34 +55,19 @@ pub(super) fn collected(arena: &mut Arena, expr: Expr, d: Expr) -> Polynomial {
 
 /// The expression with powers of `D` collected, in the arguments of functions too.
 fn without_cancelling_powers(arena: &mut Arena, expr: Expr, d: Expr) -> Expr {
-    let parts = |arena: &mut Arena, e: Expr| without_cancelling_powers(arena, e, d);
-    let rebuilt = match arena.node(expr).clone() {
-        Node::Constant(_) | Node::Symbol(_) => return expr,
-        Node::Function(function, argument) => {
+    let mut parts = |arena: &mut Arena, e: Expr| without_cancelling_powers(arena, e, d);
+    match *arena.node(expr) {
+        Node::Function(Function::Ln, argument) => {
             let argument = parts(arena, argument);
-            return match function {
-                Function::Ln => logarithm(arena, argument, d),
-                _ => arena.apply(function, argument),
-            };
+            logarithm(arena, argument, d)
         }
-        Node::Sum(constant, terms) => {
-            let mut summands = vec![(arena.constant(constant), Rational::ONE)];
-            for (term, c) in terms {
-                summands.push((parts(arena, term), c));
-            }
-            arena.linear(&summands)
+        Node::Sum(..) | Node::Product(_) => {
+            let rebuilt = arena.rebuilt(expr, &mut parts);
+            let form = Polynomial::normal_form(arena, rebuilt);
+            cancelled(arena, &form, d).expression(arena)
         }
-        Node::Product(factors) => {
-            let mut product = Vec::with_capacity(factors.len());
-            for (base, exponent) in factors {
-                product.push((parts(arena, base), exponent));
-            }
-            // The bases keep their values, and were not the number zero.
-            arena.certain_product(&product)
-        }
-    };
-    let form = Polynomial::normal_form(arena, rebuilt);
-    cancelled(arena, &form, d).expression(arena)
+        _ => arena.rebuilt(expr, &mut parts),
+    }
 }
 
 /// `ln(D^k u) = k q + ln u`.
@@ -121,41 +106,28 @@ pub(super) fn definitions(arena: &mut Arena, chart: &Chart, inverse: Expr) -> Ve
     let n = chart.dim;
     let psi = unit_placement(arena, n);
     let mut list = Vec::new();
-    for (i, a) in (0..n).flat_map(|i| (0..n).map(move |a| (i, a))) {
-        list.push((psi.0[i][a], Polynomial::term(vec![inverse, chart.phi.0[i][a]], Rational::ONE)));
+    for (i, a) in pairs(n) {
+        list.push((psi.0[i][a], Polynomial::monomial([inverse, chart.phi.0[i][a]])));
     }
-    let psi: Vec<Vec<Polynomial>> =
-        psi.0.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+    let psi = psi.atoms();
     let squares = squares(arena, n, UNIT_SQUARES);
-    for (base, square) in [Base::Green as fn(usize, usize) -> Base, Base::Finger].into_iter().zip(&squares) {
-        let tensor: Square<Polynomial> = {
-            let mut symbol = |a, b| Polynomial::atom(base(a, b).unit(arena));
-            (0..n).map(|a| (0..n).map(|b| symbol(a, b)).collect()).collect()
-        };
-        list.extend(definitions_of_square(&tensor, square));
+    let tensors = [Base::Green, Base::Finger].map(|base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+        table(n, |a, b| Polynomial::atom(base(a, b).unit(arena)))
+    });
+    for (tensor, square) in tensors.iter().zip(&squares) {
+        list.extend(definitions_of_square(tensor, square));
     }
-    let (mut trace, mut of_square, mut of_cube) =
-        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-        let [of_green, of_finger] = [Base::Green(a, b), Base::Finger(a, b)].map(|base| base.unit(arena));
-        if a <= b {
-            list.push((of_green, green(&psi, a, b)));
-            list.push((of_finger, finger(&psi, a, b)));
-        }
-        of_square.add_term(vec![of_green, of_green], &Rational::ONE);
-        of_cube.add_product(&Polynomial::atom(of_green), &squares[0][a][b], &Rational::ONE);
-        if a == b {
-            trace.add_term(vec![of_green], &Rational::ONE);
-        }
+    for (a, b) in upper(n) {
+        list.push((Base::Green(a, b).unit(arena), green(&psi, a, b)));
+        list.push((Base::Finger(a, b).unit(arena), finger(&psi, a, b)));
     }
-    list.push((Base::Trace.unit(arena), trace));
-    list.push((Base::TraceOfSquare.unit(arena), of_square));
-    list.push((Base::TraceOfCube.unit(arena), of_cube));
+    let symbols = Base::TRACES.map(|base| base.unit(arena));
+    list.extend(symbols.into_iter().zip(traces(&tensors[0], &squares[0])));
     list
 }
 
 /// `Psi` as symbols.
 pub(super) fn unit_placement(arena: &mut Arena, n: usize) -> Matrix {
-    let mut entry = |i, a| Base::Placement(i, a).unit(arena);
-    Matrix((0..n).map(|i| (0..n).map(|a| entry(i, a)).collect()).collect())
+    let entry = |i, a| Base::Placement(i, a).unit(arena);
+    Matrix(table(n, entry))
 }

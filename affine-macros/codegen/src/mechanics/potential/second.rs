@@ -1,5 +1,6 @@
 //! `I2 = ((tr G)^2 - tr G^2)/2`, the sum of the principal minors of two rows, `det G` for n = 2: the difference of the squares loses digits where one stretch is long.
 
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::symbol::Quantity;
@@ -27,7 +28,7 @@ pub(super) fn definition(arena: &mut Arena, chart: &Chart) -> (Expr, Polynomial)
     let base: fn(usize, usize) -> Base = if spatial { Base::Finger } else { Base::Green };
     let mut sum = Polynomial::zero();
     let n = chart.dim;
-    for (a, b) in (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b))) {
+    for (a, b) in above_diagonal(n) {
         let [aa, bb, ab] = [base(a, a), base(b, b), base(a, b)].map(|base| base.symbol(arena));
         sum.add_term(vec![aa, bb], &Rational::ONE);
         sum.add_term(vec![ab, ab], &Rational::MINUS_ONE);

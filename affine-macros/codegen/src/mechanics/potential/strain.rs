@@ -5,7 +5,7 @@
 
 mod deviator;
 
-use crate::algebra::ring::{Square, adjugate};
+use crate::algebra::ring::{Square, adjugate, pairs, table, upper};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::symbol::{Quantity, Symbol};
@@ -69,7 +69,7 @@ impl Strains {
         let atom = Polynomial::atom;
         let mut list = Vec::new();
         let mut tensor = |arena: &mut Arena, base: fn(usize, usize) -> Base, diagonal: &[Expr]| {
-            for (a, b) in (0..self.n).flat_map(|a| (0..self.n).map(move |b| (a, b))) {
+            for (a, b) in pairs(self.n) {
                 let symbol = base(a, b).symbol(arena);
                 list.push((
                     symbol,
@@ -157,11 +157,7 @@ impl Strains {
             strain.add_term(vec![self.excess[a]], &Rational::ONE);
             let whole = own.mul(own);
             let squares = |entry: &dyn Fn(usize) -> Polynomial| {
-                let mut sum = Polynomial::zero();
-                for i in (0..self.n).filter(|i| *i != a) {
-                    sum.add_product(&entry(i), &entry(i), &Rational::ONE);
-                }
-                sum
+                (0..self.n).filter(|i| *i != a).map(|i| entry(i).mul(&entry(i))).sum()
             };
             let column = (self.green[a], Base::Green(a, a), squares(&|i| self.phi[i][a].clone()));
             let row = (self.finger[a], Base::Finger(a, a), squares(&|i| self.phi[a][i].clone()));
@@ -203,11 +199,11 @@ impl Strains {
         // tr G^3 - n = 3 (tr G^2 - n) - 3 (tr G - n) + tr M^3
         let mut cubes = Polynomial::term(vec![of_square], Rational::from(3));
         cubes.add_term(vec![first], &Rational::from(-3));
-        for (a, b) in (0..self.n).flat_map(|a| (0..self.n).map(move |b| (a, b))) {
+        for (a, b) in pairs(self.n) {
             cubes.add_product(&self.strain(arena, a, b), &self.square(arena, a, b), &Rational::ONE);
         }
         list.push((of_cube, cubes));
-        for (a, b) in (0..self.n).flat_map(|a| (a..self.n).map(move |b| (a, b))) {
+        for (a, b) in upper(self.n) {
             list.push((square(arena, a, b), self.times_strain(arena, a, b, Self::strain)));
         }
     }
@@ -228,8 +224,7 @@ impl Strains {
             true => Polynomial::atom(self.cofactors[0][b]),
             false => adjugate[b][0].clone(),
         };
-        let mut others = Polynomial::zero();
-        (1..self.n).for_each(|b| others.add_product(&self.phi[0][b], &cofactor(b), &Rational::ONE));
+        let others: Polynomial = (1..self.n).map(|b| self.phi[0][b].mul(&cofactor(b))).sum();
         list.push((beside, others));
         let mut change = Polynomial::atom(self.excess[0]);
         change.add_product(&Polynomial::atom(self.cofactor_excess[0]), &self.phi[0][0], &Rational::ONE);
@@ -247,7 +242,7 @@ impl Strains {
         let below = arena.linear(&powers);
         // A sum of powers of D and one.
         let reciprocal = arena.reciprocal(below);
-        list.push((excess_d, Polynomial::term(vec![excess, reciprocal], Rational::ONE)));
+        list.push((excess_d, Polynomial::monomial([excess, reciprocal])));
         // ln det = arsinh((det - 1/det)/2) = arsinh(((det - 1) + (det - 1)/det)/2)
         let half = Rational::HALF;
         let mut argument = Polynomial::term(vec![excess], half.clone());
@@ -320,27 +315,21 @@ impl Strains {
         let n = self.n;
         let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
         let mut symbols = |of: Quantity| -> Square<Expr> {
-            let mut entry = |a: usize, b: usize| arena.symbol(of.at([a.min(b) + 1, a.max(b) + 1]));
-            (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect()
+            let entry = |a: usize, b: usize| arena.symbol(of.at([a.min(b) + 1, a.max(b) + 1]));
+            table(n, entry)
         };
         let (inverses, products) = (symbols(Quantity::InverseTensor), symbols(Quantity::InverseStrain));
-        let mut entry = |a: usize, b: usize| Polynomial::atom(base(a, b).symbol(arena));
-        let tensor: Square<Polynomial> = (0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect();
+        let entry = |a: usize, b: usize| Polynomial::atom(base(a, b).symbol(arena));
+        let tensor: Square<Polynomial> = table(n, entry);
         let adjugate = adjugate(&tensor);
         let over = arena.symbol(Quantity::InverseDeterminantSquared);
         let mut list = vec![(over, Polynomial::term(vec![self.volume.inverse_det; 2], Rational::ONE))];
-        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+        for (a, b) in upper(n) {
             list.push((inverses[a][b], adjugate[a][b].mul(&Polynomial::atom(over))));
         }
-        for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
-            let mut product = Polynomial::zero();
-            for k in 0..n {
-                product.add_product(
-                    &Polynomial::atom(inverses[a][k]),
-                    &self.strain(arena, k, b),
-                    &Rational::ONE,
-                );
-            }
+        for (a, b) in upper(n) {
+            let product: Polynomial =
+                (0..n).map(|k| Polynomial::atom(inverses[a][k]).mul(&self.strain(arena, k, b))).sum();
             list.push((products[a][b], product));
         }
         let products =

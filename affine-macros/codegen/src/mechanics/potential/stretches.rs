@@ -10,6 +10,7 @@ mod form;
 mod symmetric;
 
 use crate::algebra::arena::Node;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
 use super::base::{Base, log_stretches};
@@ -25,7 +26,6 @@ pub fn canonical(arena: &mut Arena, n: usize, energy: Expr) -> Expr {
 }
 
 /// Does it need the single stretches?
-#[must_use]
 pub fn is_stretched(arena: &mut Arena, n: usize, energy: Expr) -> bool {
     let stretches = log_stretches(arena, n);
     arena.any_symbol(energy, &mut |symbol| stretches.contains(&symbol))
@@ -77,33 +77,24 @@ pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: u
 /// The first argument of a root, a logarithm or a quotient in `energy` that vanishes where two stretches coincide.
 pub fn singular_at_coincidence(arena: &mut Arena, n: usize, energy: Expr) -> Option<(Expr, (usize, usize))> {
     let vanishing = |arena: &mut Arena, argument: Expr| {
-        let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
+        let pairs = above_diagonal(n);
         pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, argument, *a, *b))
     };
     let mut pending = vec![energy];
     while let Some(expr) = pending.pop() {
-        match arena.node(expr).clone() {
-            Node::Constant(_) | Node::Symbol(_) => {}
-            Node::Sum(_, terms) => pending.extend(terms.into_iter().map(|(term, _)| term)),
+        let singular = match arena.node(expr).clone() {
             Node::Product(factors) => {
-                for (base, exponent) in factors {
-                    if exponent < 0
-                        && let Some(pair) = vanishing(arena, base)
-                    {
-                        return Some((base, pair));
-                    }
-                    pending.push(base);
-                }
+                factors.into_iter().filter(|(_, k)| *k < 0).map(|(base, _)| base).collect()
             }
-            Node::Function(function, argument) => {
-                if matches!(function, Function::Sqrt | Function::Ln)
-                    && let Some(pair) = vanishing(arena, argument)
-                {
-                    return Some((argument, pair));
-                }
-                pending.push(argument);
+            Node::Function(Function::Sqrt | Function::Ln, argument) => vec![argument],
+            _ => Vec::new(),
+        };
+        for part in singular {
+            if let Some(pair) = vanishing(arena, part) {
+                return Some((part, pair));
             }
         }
+        pending.extend(arena.parts(expr));
     }
     None
 }

@@ -4,7 +4,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::Quantity;
 
 /// Sums with the symbols that stand for them.
@@ -83,29 +83,7 @@ impl Sums {
         if let Some(done) = done.get(&expr) {
             return *done;
         }
-        let mut part = |arena: &mut Arena, of: Expr| self.replaced(arena, of, raised, done);
-        let rebuilt = match arena.node(expr).clone() {
-            Node::Constant(_) | Node::Symbol(_) => return expr,
-            Node::Function(function, argument) => {
-                let argument = part(arena, argument);
-                arena.apply(function, argument)
-            }
-            Node::Product(factors) => {
-                let mut rebuilt = Vec::with_capacity(factors.len());
-                for (base, exponent) in factors {
-                    rebuilt.push((part(arena, base), exponent));
-                }
-                // The bases keep their values, and were not the number zero.
-                arena.certain_product(&rebuilt)
-            }
-            Node::Sum(constant, terms) => {
-                let mut summands = vec![(arena.constant(constant), Rational::ONE)];
-                for (term, c) in terms {
-                    summands.push((part(arena, term), c));
-                }
-                arena.linear(&summands)
-            }
-        };
+        let rebuilt = arena.rebuilt(expr, &mut |arena, part| self.replaced(arena, part, raised, done));
         let named = match arena.node(rebuilt) {
             Node::Sum(..) => self.name_of(arena, rebuilt, raised.contains(&expr)),
             _ => rebuilt,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::algebra::ring::{Ring, Square, adjugate};
+use crate::algebra::ring::{Ring, Square, adjugate, dot, pairs, table, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::symbol::{Quantity, Symbol};
@@ -28,18 +28,12 @@ impl<R: Ring> Tensors<R> {
     pub(super) fn values(&self) -> HashMap<Symbol, R> {
         let n = self.phi.len();
         let mut values = HashMap::new();
-        let (mut trace, mut of_square, mut of_cube) = (R::zero(), R::zero(), R::zero());
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-            of_square.plus_product(&self.green[a][b], &self.green[a][b], &Rational::ONE);
-            of_cube.plus_product(&self.green[a][b], &self.squares[0][a][b], &Rational::ONE);
-            if a == b {
-                trace.plus(&self.green[a][b], &Rational::ONE);
-            }
+        for (a, b) in pairs(n) {
             values.insert(Base::Green(a, b).quantity(), self.green[a][b].clone());
             values.insert(Base::Finger(a, b).quantity(), self.finger[a][b].clone());
         }
-        values.extend([(Base::Trace.quantity(), trace), (Base::TraceOfSquare.quantity(), of_square)]);
-        values.insert(Base::TraceOfCube.quantity(), of_cube);
+        values
+            .extend(Base::TRACES.map(Base::quantity).into_iter().zip(traces(&self.green, &self.squares[0])));
         values
     }
 }
@@ -48,37 +42,33 @@ impl<R: Ring> Tensors<R> {
 pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynomial)> {
     let phi = chart.placement();
     let mut list = Vec::new();
-    for (a, b) in (0..n).flat_map(|a| (a..n).map(move |b| (a, b))) {
+    for (a, b) in upper(n) {
         list.push((Base::Green(a, b).symbol(arena), green(&phi, a, b)));
         list.push((Base::Finger(a, b).symbol(arena), finger(&phi, a, b)));
     }
     let spatial = matches!(chart.momentum, Momentum::Space | Momentum::Total);
-    let entry = |arena: &mut Arena, a: usize, b: usize| {
-        let base = if spatial { Base::Finger(a, b) } else { Base::Green(a, b) };
-        Polynomial::atom(base.symbol(arena))
-    };
     let squares = squares(arena, n, SQUARES);
-    for (base, of) in [(Base::Green as fn(usize, usize) -> Base, 0), (Base::Finger, 1)] {
-        let tensor: Square<Polynomial> = {
-            let mut symbol = |a, b| Polynomial::atom(base(a, b).symbol(arena));
-            (0..n).map(|a| (0..n).map(|b| symbol(a, b)).collect()).collect()
-        };
-        list.extend(definitions_of_square(&tensor, &squares[of]));
+    let tensors = [Base::Green, Base::Finger].map(|base: fn(usize, usize) -> Base| -> Square<Polynomial> {
+        table(n, |a, b| Polynomial::atom(base(a, b).symbol(arena)))
+    });
+    for (tensor, square) in tensors.iter().zip(&squares) {
+        list.extend(definitions_of_square(tensor, square));
     }
-    let (mut trace, mut of_square, mut of_cube) =
-        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
-    for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
-        let value = entry(arena, a, b);
-        of_square.add_product(&value, &value, &Rational::ONE);
-        of_cube.add_product(&value, &squares[usize::from(spatial)][a][b], &Rational::ONE);
-        if a == b {
-            trace.add_scaled(&value, &Rational::ONE);
-        }
-    }
-    list.push((Base::Trace.symbol(arena), trace));
-    list.push((Base::TraceOfSquare.symbol(arena), of_square));
-    list.push((Base::TraceOfCube.symbol(arena), of_cube));
+    let own = usize::from(spatial);
+    let symbols = Base::TRACES.map(|base| base.symbol(arena));
+    list.extend(symbols.into_iter().zip(traces(&tensors[own], &squares[own])));
     list
+}
+
+/// `tr G`, `tr G^2` and `tr G^3` of a symmetric matrix, with its square.
+pub(super) fn traces<R: Ring>(tensor: &Square<R>, square: &Square<R>) -> [R; 3] {
+    let one = R::number(&Rational::ONE);
+    let places = || pairs(tensor.len());
+    [
+        dot(tensor.iter().enumerate().map(|(a, row)| (&row[a], &one))),
+        dot(places().map(|(a, b)| (&tensor[a][b], &tensor[a][b]))),
+        dot(places().map(|(a, b)| (&tensor[a][b], &square[a][b]))),
+    ]
 }
 
 /// `G^2` and `Ct^2`.
@@ -91,7 +81,7 @@ pub(super) const UNIT_SQUARES: [Quantity; 2] = [Quantity::UnitGreenSquare, Quant
 pub(super) fn squares(arena: &mut Arena, n: usize, of: [Quantity; 2]) -> [Square<Polynomial>; 2] {
     of.map(|square| {
         let mut entry = |a: usize, b: usize| arena.symbol(square.at([a.min(b) + 1, a.max(b) + 1]));
-        (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+        table(n, |a, b| Polynomial::atom(entry(a, b)))
     })
 }
 
@@ -101,7 +91,7 @@ pub(super) fn definitions_of_square(
     square: &Square<Polynomial>,
 ) -> Vec<(Expr, Polynomial)> {
     let n = tensor.len();
-    let pairs = (0..n).flat_map(|a| (a..n).map(move |b| (a, b)));
+    let pairs = upper(n);
     let defined = pairs.filter_map(|(a, b)| {
         let symbol = square[a][b].atoms().next().copied()?;
         Some((symbol, entry_of_product(tensor, tensor, a, b)))
@@ -120,11 +110,7 @@ pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>,
             sum.plus(value, &Rational::ONE);
         }
     };
-    let times = |a: &R, b: &R| {
-        let mut product = R::zero();
-        product.plus_product(a, b, &Rational::ONE);
-        product
-    };
+    let times = |a, b| dot([(a, b)]);
     match (base, along) {
         (Base::Position(_), _) => {}
         (Base::LogStretch(k), _) => return principal.direction(k, along, a, b),
@@ -172,11 +158,7 @@ pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>,
 }
 
 fn entry_of_product<R: Ring>(left: &Square<R>, right: &Square<R>, a: usize, b: usize) -> R {
-    let mut sum = R::zero();
-    for (k, row) in right.iter().enumerate() {
-        sum.plus_product(&left[a][k], &row[b], &Rational::ONE);
-    }
-    sum
+    dot(left[a].iter().zip(right.iter().map(|row| &row[b])))
 }
 
 /// The cofactors `d(det phi)/dphi_iA`.
@@ -186,13 +168,9 @@ pub(super) fn cofactors(arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomi
 }
 
 pub(super) fn green<R: Ring>(phi: &Square<R>, a: usize, b: usize) -> R {
-    let mut sum = R::zero();
-    phi.iter().for_each(|row| sum.plus_product(&row[a], &row[b], &Rational::ONE));
-    sum
+    dot(phi.iter().map(|row| (&row[a], &row[b])))
 }
 
 pub(super) fn finger<R: Ring>(phi: &Square<R>, i: usize, j: usize) -> R {
-    let mut sum = R::zero();
-    phi[i].iter().zip(&phi[j]).for_each(|(left, right)| sum.plus_product(left, right, &Rational::ONE));
-    sum
+    dot(phi[i].iter().zip(&phi[j]))
 }

@@ -92,7 +92,7 @@ impl Undeformed {
         for (small, sum) in groups {
             let parts = self.of(arena, &sum);
             let sum = if parts.vanishes() { parts.change } else { sum };
-            result.add_product(&Polynomial::term(small, Rational::ONE), &sum, &Rational::ONE);
+            result.add_product(&Polynomial::monomial(small), &sum, &Rational::ONE);
         }
         result
     }
@@ -230,6 +230,6 @@ fn reciprocal(arena: &mut Arena, value: Expr, below: &Counted) -> Option<Counted
     let start = below.at_rest.expression(arena);
     let inverse = arena.pow(start, -1)?;
     let at_rest = Polynomial::normal_form(arena, inverse);
-    let change = below.change.mul(&Polynomial::atom(value)).mul(&at_rest).scaled(&Rational::MINUS_ONE);
+    let change = below.change.mul(&Polynomial::atom(value)).mul(&at_rest).neg();
     Some(Counted { at_rest, change })
 }

@@ -48,36 +48,18 @@ impl Volume {
         let mut result = Polynomial::zero();
         for (monomial, c) in form.terms() {
             let monomial = monomial.iter().map(|atom| if *atom == reciprocal { inverse_d } else { *atom });
-            let factors: Vec<Expr> = monomial.map(|atom| self.inside(arena, atom)).collect();
+            // Divisors and the arguments of functions too.
+            let factors: Vec<Expr> =
+                monomial.map(|atom| if atom == self.d { atom } else { self.rebuilt(arena, atom) }).collect();
             result.add_term(factors, c);
         }
         self.reduced(&result)
     }
 
-    /// The same for the arguments of functions and the divisors in an atom.
-    fn inside(&self, arena: &mut Arena, atom: Expr) -> Expr {
-        match arena.node(atom).clone() {
-            Node::Function(function, argument) => {
-                let argument = self.rebuilt(arena, argument);
-                arena.apply(function, argument)
-            }
-            Node::Product(_) | Node::Sum(..) => self.rebuilt(arena, atom),
-            Node::Constant(_) | Node::Symbol(_) => atom,
-        }
-    }
-
+    /// The expression with each power of `D` in one form.
     fn rebuilt(&self, arena: &mut Arena, expr: Expr) -> Expr {
         match arena.node(expr).clone() {
             Node::Symbol(_) if expr == self.d => self.power(arena, 1),
-            Node::Constant(_) | Node::Symbol(_) => expr,
-            Node::Function(..) => self.inside(arena, expr),
-            Node::Sum(constant, terms) => {
-                let mut summands = vec![(arena.constant(constant), Rational::ONE)];
-                for (term, c) in terms {
-                    summands.push((self.rebuilt(arena, term), c));
-                }
-                arena.linear(&summands)
-            }
             Node::Product(factors) => {
                 let mut product = Vec::with_capacity(factors.len());
                 for (base, exponent) in factors {
@@ -89,6 +71,7 @@ impl Volume {
                 // The bases keep their values, and were not the number zero.
                 arena.certain_product(&product)
             }
+            _ => arena.rebuilt(expr, &mut |arena, part| self.rebuilt(arena, part)),
         }
     }
 
@@ -159,16 +142,17 @@ impl Volume {
             }
             _ => adjugate(&chart.placement()).iter().map(|row| row[0].clone()).collect(),
         };
-        let mut determinant = Polynomial::zero();
-        for (entry, cofactor) in chart.phi.0[0].iter().zip(first_row) {
-            determinant.add_product(&Polynomial::atom(*entry), &cofactor, &Rational::ONE);
-        }
+        let determinant: Polynomial = chart.phi.0[0]
+            .iter()
+            .zip(first_row)
+            .map(|(entry, cofactor)| Polynomial::atom(*entry).mul(&cofactor))
+            .sum();
         let mut product = vec![inverse_d; n - 1];
         product.push(det);
         vec![
             (det, determinant),
             (inverse_d, reciprocal(arena, root)),
-            (d, Polynomial::term(product, Rational::ONE)),
+            (d, Polynomial::monomial(product)),
             (inverse_det, inverse),
             (Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)),
         ]

@@ -3,7 +3,7 @@
 mod steepness;
 
 use crate::algebra::arena::Node;
-use crate::algebra::ring::{Square, table};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::Load;
@@ -68,7 +68,6 @@ pub(super) struct Counting {
 
 impl Writing {
     /// Does it count from the undeformed state?
-    #[must_use]
     pub fn counts(self) -> bool {
         matches!(self, Self::Differences | Self::Deviators | Self::Inverses)
     }
@@ -127,7 +126,6 @@ impl Potential {
     }
 
     /// The same potential with a way of writing its forces beside a momentum.
-    #[must_use]
     pub fn written(mut self, momentum: Momentum, way: Way) -> Self {
         self.writings.push((momentum, way));
         self
@@ -233,7 +231,7 @@ impl Means {
             Self::Unit(_) => {
                 let trace = vec![Base::Trace.unit(arena)];
                 let mut deviator = table(n, |_, _| Polynomial::zero());
-                for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+                for (a, b) in pairs(n) {
                     deviator[a][b] = Polynomial::atom(Base::Green(a, b).unit(arena));
                     if a == b {
                         deviator[a][b].add_term(vec![mean], &Rational::MINUS_ONE);
@@ -388,13 +386,11 @@ impl Means {
         let unit = matches!(self, Self::Unit(_));
         let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
             let mut entry = |a, b| if unit { base(a, b).unit(arena) } else { base(a, b).symbol(arena) };
-            (0..n).map(|a| (0..n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+            table(n, |a, b| Polynomial::atom(entry(a, b)))
         };
         let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
         let phi = if unit { symbols(Base::Placement) } else { chart.placement() };
-        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
-        let cofactors =
-            cofactors.iter().map(|row| row.iter().copied().map(Polynomial::atom).collect()).collect();
+        let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).atoms();
         let squares = squares(arena, n, if unit { UNIT_SQUARES } else { SQUARES });
         Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
     }

@@ -25,7 +25,6 @@ pub enum Carried {
 
 impl Carried {
     /// The quantity that its symbol stands for.
-    #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
             Self::InverseDilatation => Quantity::InverseDilatation,
@@ -107,7 +106,7 @@ fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) ->
         expansion = Polynomial::atom(shared);
     }
     if carries_r {
-        let rate = Polynomial::atom(r).mul(&expansion).scaled(&Rational::MINUS_ONE);
+        let rate = Polynomial::atom(r).mul(&expansion).neg();
         system.rates.push((Coordinate::Carried(r), r, rate));
     }
     if takes_q {
@@ -119,21 +118,15 @@ fn carrying_the_dilatation(arena: &mut Arena, chart: &Chart, system: &System) ->
 /// `tr(phi^-1 phi') = tr O`.
 fn trace_of_velocity(arena: &mut Arena, chart: &Chart) -> Polynomial {
     let velocity = chart.momentum.velocity();
-    let mut trace = Polynomial::zero();
-    for a in 1..=chart.dim {
-        trace.add_scaled(&Polynomial::atom(arena.symbol(velocity.at([a, a]))), &Rational::ONE);
-    }
-    trace
+    (1..=chart.dim).map(|a| Polynomial::atom(arena.symbol(velocity.at([a, a])))).sum()
 }
 
 /// `tr(phi^-1 phi') = r sum_iA cof_iA phi'_iA` with the cofactors of `Psi = r phi`.
 fn flat_expansion(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> Polynomial {
     let cofactors = Matrix::symbols(arena, Quantity::Cofactor, chart.dim);
-    let mut sum = Polynomial::zero();
-    for (z, _, rate) in &system.rates {
-        if let Coordinate::Phi(i, a) = *z {
-            sum.add_product(&Polynomial::atom(cofactors.0[i][a]), rate, &Rational::ONE);
-        }
-    }
-    sum.mul(&Polynomial::atom(r))
+    let products = system.rates.iter().filter_map(|(z, _, rate)| match *z {
+        Coordinate::Phi(i, a) => Some(Polynomial::atom(cofactors.0[i][a]).mul(rate)),
+        _ => None,
+    });
+    products.sum::<Polynomial>().mul(&Polynomial::atom(r))
 }

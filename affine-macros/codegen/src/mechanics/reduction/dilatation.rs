@@ -10,7 +10,7 @@
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
-use crate::algebra::ring::table;
+use crate::algebra::ring::{pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -129,14 +129,11 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
     }
     for (i, a) in pairs(n) {
-        let mut rate = Polynomial::zero();
-        for k in 0..n {
-            let product = match chart.momentum {
-                Momentum::Space => vec![o.0[i][k], psi.0[k][a]],
-                _ => vec![psi.0[i][k], o.0[k][a]],
-            };
-            rate.add_term(product, &Rational::ONE);
-        }
+        let product = |k: usize| match chart.momentum {
+            Momentum::Space => [o.0[i][k], psi.0[k][a]],
+            _ => [psi.0[i][k], o.0[k][a]],
+        };
+        let rate = (0..n).map(|k| Polynomial::monomial(product(k))).sum();
         system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
     }
     let force = |a: usize, b: usize| {
@@ -145,13 +142,12 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     };
     let nth = Rational::one_over(n);
     let half = Rational::HALF;
-    let mut mean = Polynomial::zero();
-    (0..n).for_each(|a| mean.add_scaled(&force(a, a), &nth));
+    let mean: Polynomial = (0..n).map(|a| force(a, a).scaled(&nth)).sum();
     for (a, b) in pairs(n) {
         let mut rate = match (a < b, a == b) {
-            (true, _) => sum(&force(a, b), &force(b, a), &Rational::ONE).scaled(&half),
-            (_, true) => sum(&force(a, a), &mean, &Rational::MINUS_ONE),
-            _ => sum(&force(b, a), &force(a, b), &Rational::MINUS_ONE).scaled(&half),
+            (true, _) => force(a, b).add(&force(b, a)).scaled(&half),
+            (_, true) => force(a, a).sub(&mean),
+            _ => force(b, a).sub(&force(a, b)).scaled(&half),
         };
         rate = rate.mul(&casimirs.casimir2);
         if (a, b) != (n - 1, n - 1) {
@@ -208,14 +204,10 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
     for (a, b) in pairs(n) {
         let symbol = |arena: &mut Arena, a, b| Polynomial::atom(arena.symbol(part(a, b)));
         rows[a][b] = match (a < b, a == b) {
-            (true, _) => sum(&symbol(arena, a, b), &symbol(arena, b, a), &Rational::ONE),
+            (true, _) => symbol(arena, a, b).add(&symbol(arena, b, a)),
             (_, true) if a + 1 < n => symbol(arena, a, a),
-            (_, true) => {
-                let mut rest = Polynomial::zero();
-                (0..a).for_each(|c| rest.add_scaled(&symbol(arena, c, c), &Rational::MINUS_ONE));
-                rest
-            }
-            _ => sum(&symbol(arena, b, a), &symbol(arena, a, b), &Rational::MINUS_ONE),
+            (_, true) => (0..a).map(|c| symbol(arena, c, c).neg()).sum(),
+            _ => symbol(arena, b, a).sub(&symbol(arena, a, b)),
         };
     }
     rows
@@ -224,14 +216,4 @@ fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.
 fn part(a: usize, b: usize) -> Symbol {
     if a <= b { Quantity::Shear.at([a + 1, b + 1]) } else { Quantity::Turn.at([b + 1, a + 1]) }
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
-}
-
-fn sum(left: &Polynomial, right: &Polynomial, weight: &Rational) -> Polynomial {
-    let mut sum = left.clone();
-    sum.add_scaled(right, weight);
-    sum
 }

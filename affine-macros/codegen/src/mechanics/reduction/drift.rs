@@ -21,8 +21,7 @@ impl Drift {
         let free = masses.body.is_none()
             && body.potential.is_none_or(|u| !u.moves_the_centre())
             && body.forces.leave_the_centre();
-        let reciprocal = arena.pow(masses.space.filter(|_| free)?, -1)?;
-        Some(Self { inverse_mass: Polynomial::normal_form(arena, reciprocal) })
+        Some(Self { inverse_mass: Polynomial::reciprocal(arena, masses.space.filter(|_| free)?)? })
     }
 
     /// `x0` and `p/m` are kept.

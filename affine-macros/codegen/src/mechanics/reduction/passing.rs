@@ -12,7 +12,6 @@ use super::{Commuting, Reduction, dilatation};
 
 impl Reduction {
     /// The way of its states.
-    #[must_use]
     pub fn passage(&self, arena: &Arena) -> Passage {
         let mut passage = Passage::default();
         let Commuting { rotation, drift } = &self.commuting;

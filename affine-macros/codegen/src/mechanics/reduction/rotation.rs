@@ -1,7 +1,7 @@
 //! The rotation that the skew part of an isotropic energy makes: it is applied exactly.
 
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
-use crate::algebra::{Arena, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial};
 use crate::mechanics::body::Body;
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Momentum};
@@ -28,8 +28,7 @@ impl Rotation {
         let iso = h.isotropic.as_ref().filter(|iso| !iso.skew.is_zero())?;
         let chart = body.motion.chart(arena, true);
         let spin = spatial_or_own(&chart);
-        let mut rest = iso.casimirs(&spin);
-        rest.add_scaled(&h.translation_in(&chart), &Rational::ONE);
+        let rest = iso.casimirs(&spin).add(&h.translation_in(&chart));
         let norm = match h.frame {
             Frame::Body => Candidate::Vorticity,
             _ => Candidate::Spin,

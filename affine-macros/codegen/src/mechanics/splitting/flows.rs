@@ -1,5 +1,6 @@
 //! Flows in closed form, and which of them a system of equations has.
 
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
@@ -138,10 +139,8 @@ pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polyn
         }
     }
     let still = |y: &Polynomial| {
-        let mut rate = Polynomial::zero();
-        for (_, symbol, slope) in &system.rates {
-            rate.add_product(&y.derivative(*symbol), slope, &Rational::ONE);
-        }
+        let rate: Polynomial =
+            system.rates.iter().map(|(_, symbol, slope)| y.derivative(*symbol).mul(slope)).sum();
         rate.is_zero()
     };
     rows.iter().flatten().all(still).then_some((rows, right))
@@ -187,8 +186,4 @@ fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: us
         sum.add_product(&Polynomial::atom(chart.m.0[k][b]), &y[a][k], &minus);
     }
     sum
-}
-
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
 }

@@ -33,9 +33,7 @@ pub(super) fn flow(
         let momenta: Vec<Expr> = block.iter().map(|(_, symbol, _)| *symbol).collect();
         let matrix: Vec<Vec<Polynomial>> = block
             .iter()
-            .map(|(.., rate)| {
-                momenta.iter().map(|z| rate.derivative(*z).scaled(&Rational::MINUS_ONE)).collect()
-            })
+            .map(|(.., rate)| momenta.iter().map(|z| rate.derivative(*z).neg()).collect())
             .collect();
         is_linear(&block, &momenta, &matrix).then_some(())?;
         let faded = |k: usize| Quantity::Faded.at([b + 1, k + 1]);

@@ -69,7 +69,7 @@ impl Squares {
         let form: Vec<Vec<Polynomial>> =
             energy.gradient(&symbols).iter().map(|slope| slope.gradient(&symbols)).collect();
         let mut squares = Self::default();
-        for block in blocks(&form, entries(symbols.len())) {
+        for block in blocks(&form, &entries(symbols.len())) {
             let of_block = squares.of_block(arena, &block)?;
             let places = block.basis.iter().filter_map(|vector| vector.entries.first());
             let places: Vec<usize> = places.map(|(k, _)| *k).collect();

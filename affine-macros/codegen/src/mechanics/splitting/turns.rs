@@ -11,7 +11,7 @@
 //! What else there is has a series. Shears whose products vanish are one shear.
 
 use crate::algebra::kernel::{Callee, Group};
-use crate::algebra::ring::{self, table};
+use crate::algebra::ring::{self, pairs, table};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::{Form, System};
@@ -109,7 +109,7 @@ impl Turn {
             ring::sum(&odd, &times(square, &Polynomial::atom(v)))
         });
         // u^2 = 2 v + k v^2: both ways undo each other.
-        let mut known = k.mul(&Polynomial::term(vec![v, v], Rational::ONE));
+        let mut known = k.mul(&Polynomial::monomial([v, v]));
         known.add_term(vec![v], &Rational::from(2));
         self.rise((arena, reduction), kernel, &factors, Some(([u, u], known)))
     }
@@ -123,7 +123,7 @@ impl Turn {
         results: [Expr; 2],
     ) -> Kernel {
         let h = arena.symbol(Quantity::TimeOfFlow);
-        let extent = Polynomial::term(vec![h, self.rate.0], Rational::ONE);
+        let extent = Polynomial::monomial([h, self.rate.0]);
         let arguments = [extent, parameter.clone()].map(Group::Scalar).to_vec();
         Kernel { callee, arguments, results: results.map(Group::Scalar).to_vec() }
     }
@@ -170,7 +170,7 @@ fn rises(chart: &Chart, [there, back]: &[Square; 2], right: bool) -> Vec<(Coordi
     let second = ring::product(&ring::sum(&m, &first), after);
     let turned = ring::sum(&first, &second);
     let mut rates = Vec::new();
-    for (a, b) in (0..chart.dim).flat_map(|a| (0..chart.dim).map(move |b| (a, b))) {
+    for (a, b) in pairs(chart.dim) {
         for (z, rise) in [(Coordinate::Phi(a, b), &placed[a][b]), (Coordinate::M(a, b), &turned[a][b])] {
             if !rise.is_zero() {
                 rates.push((z, chart.symbol(z), rise.clone()));
@@ -187,15 +187,13 @@ fn replaced(polynomial: &Polynomial, [one, other]: [Expr; 2], value: &Polynomial
         factor = factor.scaled(&Rational::HALF);
     }
     let mut sum = polynomial.clone();
-    sum.add_product(&factor, &Polynomial::term(vec![one, other], Rational::ONE), &Rational::MINUS_ONE);
+    sum.add_product(&factor, &Polynomial::monomial([one, other]), &Rational::MINUS_ONE);
     sum.add_product(&factor, value, &Rational::ONE);
     sum
 }
 
 fn trace(matrix: &Square) -> Polynomial {
-    let mut trace = Polynomial::zero();
-    (0..matrix.len()).for_each(|a| trace.add_scaled(&matrix[a][a], &Rational::ONE));
-    trace
+    (0..matrix.len()).map(|a| &matrix[a][a]).sum()
 }
 
 fn times(matrix: &Square, factor: &Polynomial) -> Square {

@@ -1,5 +1,6 @@
 //! The frames `L` and `R` beside the lattice: `dL/dt = L chi_hat`, `dR/dt = R theta_hat`.
 
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -30,14 +31,12 @@ impl Frames {
     }
 
     /// All of them, `L` first.
-    #[must_use]
     pub fn symbols(&self) -> Vec<Expr> {
         [&self.left[..], &self.right].concat()
     }
 
     /// Rate of component `k` of a frame from `chi_hat_ab` or `theta_hat_ab`, `a < b`: entry `k` of `L chi_hat`, or of the
     /// angle `w`, where `L^T dL/dt = [[0, -1], [1, 0]] dw/dt`.
-    #[must_use]
     pub fn rate(&self, frame: &[Expr], angular: &[Polynomial], k: usize) -> Polynomial {
         let mut sum = Polynomial::zero();
         if self.dim == 2 {
@@ -45,7 +44,7 @@ impl Frames {
             return sum;
         }
         let (row, column) = (k / self.dim, k % self.dim);
-        let pairs = (0..self.dim).flat_map(|a| (a + 1..self.dim).map(move |b| (a, b)));
+        let pairs = above_diagonal(self.dim);
         for ((a, b), value) in pairs.zip(angular) {
             // chi_hat_ab = value = -chi_hat_ba
             if column == b {

@@ -1,6 +1,7 @@
 //! The phase space of the lattice: its coordinates, their symbols and their brackets.
 
 use crate::algebra::fault::never_missing;
+use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::term::Frame;
@@ -70,7 +71,6 @@ impl Lattice {
     }
 
     /// All coordinates, group after group.
-    #[must_use]
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let mut all: Vec<Coordinate> = (0..self.dim).map(Coordinate::Q).collect();
         all.extend((0..self.dim).map(Coordinate::P));
@@ -80,7 +80,6 @@ impl Lattice {
     }
 
     /// Symbol of a coordinate.
-    #[must_use]
     pub fn symbol(&self, coordinate: Coordinate) -> Expr {
         let place = |a: usize, b: usize| {
             never_missing(self.pairs().position(|pair| pair == (a, b)), "the axes of a pair come in order", 0)
@@ -106,7 +105,6 @@ impl Lattice {
 
     /// `{z, y}`: `{q_a, p_b} = d_ab`; `{M, M} = {N, N} = -f(M)`, `{M, N} = -f(N)` with
     /// `f(X)_ab,cd = X_ad d_cb - X_cb d_ad + X_db d_ac - X_ac d_db`; all others vanish.
-    #[must_use]
     pub fn bracket(&self, z: Coordinate, y: Coordinate) -> Polynomial {
         use Coordinate::{M, N, P, Q};
         match (z, y) {
@@ -134,5 +132,5 @@ impl Lattice {
 }
 
 fn pairs(dim: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..dim).flat_map(move |a| (a + 1..dim).map(move |b| (a, b)))
+    above_diagonal(dim)
 }

@@ -156,9 +156,7 @@ fn exact_flow(arena: &Arena, name: String, rates: &[(Expr, Polynomial)]) -> Opti
         } else if !turned.contains(z) {
             let (angular, y) = proportional(rate, &moves)?;
             let (_, back) = rates.iter().find(|(symbol, _)| *symbol == y)?;
-            let mut expected = Polynomial::zero();
-            expected.add_product(&angular, &Polynomial::atom(*z), &Rational::MINUS_ONE);
-            if !still(&angular) || *back != expected {
+            if !still(&angular) || *back != angular.mul(&Polynomial::atom(*z)).neg() {
                 return None;
             }
             turned.extend([*z, y]);
@@ -183,7 +181,7 @@ fn proportional(rate: &Polynomial, moves: &impl Fn(Expr) -> bool) -> Option<(Pol
 
 /// Planes that turn alike, in either sense, share their angular velocity.
 fn add_plane(turns: &mut Vec<Turn>, angular: Polynomial, (z, y): (Expr, Expr)) {
-    let opposite = angular.scaled(&Rational::MINUS_ONE);
+    let opposite = angular.neg();
     for turn in turns.iter_mut() {
         if turn.angular == angular {
             return turn.planes.push((z, y));
@@ -221,13 +219,11 @@ fn commute(arena: &mut Arena, f: &Summand, g: &Summand) -> bool {
     match (&f.energy, &g.energy) {
         (Some(energy), Some(_)) => {
             let energy = energy.expression(arena);
-            let mut bracket = Polynomial::zero();
-            for (z, rate) in &g.rates {
+            let term = |(z, rate): &(Expr, Polynomial)| {
                 let slope = arena.derivative(energy, *z);
-                let slope = Polynomial::normal_form(arena, slope);
-                bracket.add_product(&slope, rate, &Rational::ONE);
-            }
-            bracket.is_zero()
+                Polynomial::normal_form(arena, slope).mul(rate)
+            };
+            g.rates.iter().map(term).sum::<Polynomial>().is_zero()
         }
         _ => f.is_blind_to(arena, g) && g.is_blind_to(arena, f),
     }

@@ -68,10 +68,8 @@ impl Ratios {
         }
         let mut rates = Vec::new();
         for (a, ratio) in symbols.neighbours(lattice.dim).into_iter().enumerate() {
-            let mut rate = Polynomial::zero();
-            for (place, sign) in [(a + 1, Rational::ONE), (a, Rational::MINUS_ONE)] {
-                rate.add_product(&Polynomial::atom(ratio), &rate_of(&equations, Coordinate::Q(place)), &sign);
-            }
+            let [next, own] = [a + 1, a].map(|place| rate_of(&equations, Coordinate::Q(place)));
+            let rate = Polynomial::atom(ratio).mul(&next.sub(&own));
             rates.push((ratio, rate));
         }
         for (a, p) in lattice.p.iter().enumerate() {
@@ -137,11 +135,7 @@ impl Symbols {
     /// A polynomial of the lattice in these symbols.
     fn in_ratios(&self, stable: &Stable, lattice: &Lattice, polynomial: &Polynomial) -> Polynomial {
         let quotients = stable.quotients();
-        let one_and = |t: Expr, sign: Rational| {
-            let mut sum = Polynomial::constant(Rational::ONE);
-            sum.add_term(vec![t], &sign);
-            sum
-        };
+        let one = Polynomial::constant(Rational::ONE);
         let value = |atom: Expr| {
             if let Some(coupling) = self.coupling(lattice, atom) {
                 return Some(coupling);
@@ -151,9 +145,10 @@ impl Symbols {
             })?;
             let (t, r) = (self.ratio[k], self.recip[k]);
             // (1 + t) and (1 - t) over one denominator: 1/(1 - t) = (1 + t) r.
-            let side = one_and(t, if which % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE });
+            let t_alone = Polynomial::atom(t);
+            let side = if which % 2 == 0 { one.add(&t_alone) } else { one.sub(&t_alone) };
             let factor = if which < 2 { vec![t, r, r] } else { vec![r] };
-            Some(side.mul(&side).mul(&Polynomial::term(factor, Rational::ONE)))
+            Some(side.mul(&side).mul(&Polynomial::monomial(factor)))
         };
         stable.rewritten(polynomial).substitute(&value)
     }
@@ -177,29 +172,21 @@ fn pair(
             .map(&mut named);
     if let (Some(first), Some(second)) = (symbols.ratio_of(at.0, at.0 + 1), symbols.ratio_of(at.0 + 1, at.1))
     {
-        shared.push((ratio, Polynomial::term(vec![first, second], Rational::ONE)));
+        shared.push((ratio, Polynomial::monomial([first, second])));
     }
-    let square_and = |sign: Rational| {
-        let mut sum = Polynomial::constant(Rational::ONE);
-        sum.add_term(vec![square], &sign);
-        sum
-    };
+    let one = Polynomial::constant(Rational::ONE);
     // A symbol is not the number zero.
     let below = arena.reciprocal(gap);
     shared.extend([
-        (square, Polynomial::term(vec![ratio, ratio], Rational::ONE)),
-        (gap, square_and(Rational::MINUS_ONE)),
-        (even, square_and(Rational::ONE)),
+        (square, Polynomial::monomial([ratio, ratio])),
+        (gap, one.sub(&Polynomial::atom(square))),
+        (even, one.add(&Polynomial::atom(square))),
         (twice, Polynomial::term(vec![ratio], Rational::from(2))),
         (recip, Polynomial::atom(below)),
-        (decay, Polynomial::term(vec![ratio, recip], Rational::ONE)),
+        (decay, Polynomial::monomial([ratio, recip])),
     ]);
     // t^2 = even - 1, t = twice/2.
-    let even_less = {
-        let mut less = Polynomial::atom(even);
-        less.add_term(Vec::new(), &Rational::MINUS_ONE);
-        less
-    };
+    let even_less = Polynomial::atom(even).sub(&one);
     let paired = |primitive: &Polynomial| {
         let mut sum = Polynomial::zero();
         for (monomial, c) in primitive.terms() {
@@ -222,14 +209,14 @@ fn pair(
             // One reciprocal goes with the sum, the rest with t.
             let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
             let factor: Vec<Expr> = with_recip.into_iter().collect();
-            let scale = Polynomial::term(factor, Rational::ONE);
+            let scale = Polynomial::monomial(factor);
             shared.push((side, paired(&primitive).mul(&scale)));
             let mut outer = vec![side];
             match common == sorted([ratio, recip]) {
                 true => outer.push(decay),
                 false => outer.extend(common),
             }
-            shared.push((angular, Polynomial::term(outer, Rational::ONE)));
+            shared.push((angular, Polynomial::monomial(outer)));
             primitive.mul(&scale)
         });
     let (_, body_form) = (
@@ -249,14 +236,15 @@ fn sorted(mut atoms: [Expr; 2]) -> Vec<Expr> {
 fn force(rate: &Polynomial, pairs: &[Pair]) -> Polynomial {
     let mut sum = Polynomial::zero();
     for pair in pairs {
-        let mut part = Polynomial::zero();
-        for (monomial, c) in rate.terms().filter(|(monomial, _)| monomial.contains(&pair.recip)) {
-            part.add_term(monomial.clone(), c);
-        }
+        let part: Polynomial = rate
+            .terms()
+            .filter(|(monomial, _)| monomial.contains(&pair.recip))
+            .map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone()))
+            .sum();
         let divided = quotient(&part, &pair.angular_forms[0]).and_then(|part| quotient(&part, &pair.body.1));
         match divided {
             Some(rest) => {
-                let product = Polynomial::term(vec![pair.angular[0], pair.body.0], Rational::ONE);
+                let product = Polynomial::monomial([pair.angular[0], pair.body.0]);
                 sum.add_product(&rest, &product, &Rational::ONE);
             }
             None => sum.add_scaled(&part, &Rational::ONE),
@@ -268,9 +256,8 @@ fn force(rate: &Polynomial, pairs: &[Pair]) -> Polynomial {
 /// `U` and `W` through the brackets, with `dH/dM = (theta_hat + chi_hat)/2` and `dH/dN = (theta_hat - chi_hat)/2`.
 fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, Polynomial)> {
     let slope = |pair: &Pair, sign: &Rational| {
-        let mut slope = Polynomial::term(vec![pair.angular[1]], Rational::HALF);
-        slope.add_term(vec![pair.angular[0]], &(sign * &Rational::HALF));
-        slope
+        let [chi, theta] = pair.angular.map(Polynomial::atom);
+        theta.add(&chi.scaled(sign)).scaled(&Rational::HALF)
     };
     let rate = |z: Coordinate| {
         let mut sum = Polynomial::zero();
@@ -287,9 +274,7 @@ fn turning(lattice: &Lattice, pairs: &[Pair], symbols: &Symbols) -> Vec<(Expr, P
     };
     let combined = |pair: &Pair, sign: &Rational| {
         let (a, b) = pair.at;
-        let mut sum = rate(Coordinate::M(a, b)).scaled(&Rational::HALF);
-        sum.add_scaled(&rate(Coordinate::N(a, b)), &(sign * &Rational::HALF));
-        sum
+        rate(Coordinate::M(a, b)).add(&rate(Coordinate::N(a, b)).scaled(sign)).scaled(&Rational::HALF)
     };
     let sums = pairs.iter().map(|pair| (pair.u, combined(pair, &Rational::ONE)));
     let differences = pairs.iter().map(|pair| (pair.w, combined(pair, &Rational::MINUS_ONE)));

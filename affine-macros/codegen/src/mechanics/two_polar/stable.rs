@@ -69,21 +69,21 @@ impl Stable {
         let (gap, decay) = if b == a + 1 {
             let apart = arena.sub(lattice.q[b], lattice.q[a]);
             let decayed = arena.apply(Function::ExpM1, apart);
-            let gap = Polynomial::normal_form(arena, decayed).scaled(&Rational::MINUS_ONE);
+            let gap = Polynomial::normal_form(arena, decayed).neg();
             (gap, one_and(named(arena, Quantity::Gap, a, b), &Rational::MINUS_ONE))
         } else {
             // t_ac = t_ab t_bc and d_ac = d_ab + t_ab d_bc: no further exponential, nothing cancels.
             let mut gap = Polynomial::atom(named(arena, Quantity::Gap, a, a + 1));
             let (t, d) = (named(arena, Quantity::Decay, a, a + 1), named(arena, Quantity::Gap, a + 1, b));
             gap.add_term(vec![t, d], &Rational::ONE);
-            (gap, Polynomial::term(vec![t, named(arena, Quantity::Decay, a + 1, b)], Rational::ONE))
+            (gap, Polynomial::monomial([t, named(arena, Quantity::Decay, a + 1, b)]))
         };
         let pair = (a, b);
         let d = self.define(arena, Quantity::Gap, pair, gap);
         let t = self.define(arena, Quantity::Decay, pair, decay);
         let e = self.define(arena, Quantity::Even, pair, one_and(t, &Rational::ONE));
         let [over_d, over_e] = self.shared_reciprocals(arena, [d, e], pair);
-        let term = |factors: Vec<Expr>| Polynomial::term(factors, Rational::ONE);
+        let term = |factors: Vec<Expr>| Polynomial::monomial(factors);
         Replacement::Decaying {
             odd: self.define(arena, Quantity::Repulsion, pair, term(vec![t, over_d, over_d])),
             even: self.define(arena, Quantity::Attraction, pair, term(vec![t, over_e, over_e])),
@@ -112,8 +112,8 @@ impl Stable {
         let r =
             self.define(arena, Quantity::Reciprocal, pair, Polynomial::term(below.to_vec(), Rational::ONE));
         [
-            self.define(arena, Quantity::GapReciprocal, pair, Polynomial::term(vec![e, r], Rational::ONE)),
-            self.define(arena, Quantity::EvenReciprocal, pair, Polynomial::term(vec![d, r], Rational::ONE)),
+            self.define(arena, Quantity::GapReciprocal, pair, Polynomial::monomial([e, r])),
+            self.define(arena, Quantity::EvenReciprocal, pair, Polynomial::monomial([d, r])),
         ]
     }
 
@@ -127,7 +127,6 @@ impl Stable {
     }
 
     /// The polynomial with every function of a pair replaced.
-    #[must_use]
     pub fn rewritten(&self, polynomial: &Polynomial) -> Polynomial {
         let mut result = Polynomial::zero();
         for (monomial, c) in polynomial.terms() {

@@ -52,23 +52,15 @@ impl Parser<'_> {
         let words = match &part.kind {
             _ if !has_matrix(part) => scalar(part, scalars),
             ExpressionKind::Negate(one) => self.words(one, scalars)?.scaled(&-&Rational::ONE),
-            ExpressionKind::Add(left, right) => {
-                let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                left.sum(right)
-            }
-            ExpressionKind::Subtract(left, right) => {
-                let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                left.sum(right.scaled(&-&Rational::ONE))
-            }
-            ExpressionKind::Multiply(left, right) => {
-                let (left, right) = (self.words(left, scalars)?, self.words(right, scalars)?);
-                left.product(&right)
-            }
-            ExpressionKind::Divide(dividend, divisor) => {
-                let (dividend, inverse) = (self.words(dividend, scalars)?, self.inverse(divisor, scalars)?);
-                dividend.product(&inverse)
-            }
-            ExpressionKind::Power(base, exponent) => self.matrix_power(base, exponent, part, scalars)?,
+            ExpressionKind::Binary(operator, left, right) => match operator {
+                Operator::Power => self.matrix_power(left, right, part, scalars)?,
+                Operator::Divide => self.words(left, scalars)?.product(&self.inverse(right, scalars)?),
+                Operator::Multiply => self.words(left, scalars)?.product(&self.words(right, scalars)?),
+                Operator::Add => self.words(left, scalars)?.sum(self.words(right, scalars)?),
+                Operator::Subtract => {
+                    self.words(left, scalars)?.sum(self.words(right, scalars)?.scaled(&-&Rational::ONE))
+                }
+            },
             _ => match matrix(part) {
                 Some(matrix) => Words::letter(Letter { matrix, is_inverse: false }),
                 None => return Err(self.refused(part, part.span, TracedPart::Function)),
@@ -166,11 +158,9 @@ fn of_matrices(part: &Expression) -> Expression {
     let kind = match (&part.kind, matrix(part)) {
         (_, Some(matrix)) => ExpressionKind::Matrix(matrix),
         (ExpressionKind::Negate(one), _) => ExpressionKind::Negate(of(one)),
-        (ExpressionKind::Add(left, right), _) => ExpressionKind::Add(of(left), of(right)),
-        (ExpressionKind::Subtract(left, right), _) => ExpressionKind::Subtract(of(left), of(right)),
-        (ExpressionKind::Multiply(left, right), _) => ExpressionKind::Multiply(of(left), of(right)),
-        (ExpressionKind::Divide(left, right), _) => ExpressionKind::Divide(of(left), of(right)),
-        (ExpressionKind::Power(left, right), _) => ExpressionKind::Power(of(left), of(right)),
+        (ExpressionKind::Binary(operator, left, right), _) => {
+            ExpressionKind::Binary(*operator, of(left), of(right))
+        }
         (other, _) => other.clone(),
     };
     Expression { kind, span: part.span }
@@ -179,7 +169,7 @@ fn of_matrices(part: &Expression) -> Expression {
 /// A part without matrices: numbers are merged where they meet, and the rest stands as it is written.
 fn scalar(part: &Expression, scalars: &mut Scalars) -> Words {
     let fraction = match &part.kind {
-        ExpressionKind::Divide(dividend, divisor) => literal(dividend)
+        ExpressionKind::Binary(Operator::Divide, dividend, divisor) => literal(dividend)
             .zip(literal(divisor))
             .and_then(|(dividend, divisor)| dividend.checked_div(&divisor)),
         _ => literal(part),

@@ -1,6 +1,6 @@
 //! The deviator of the strain, in which dilatations cancel exactly.
 
-use crate::algebra::ring::Square;
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::potential::Base;
 use crate::symbol::Quantity;
@@ -12,17 +12,17 @@ impl Strains {
     pub(in crate::mechanics::potential) fn deviator(&self, arena: &mut Arena) -> Square<Polynomial> {
         let mut entry =
             |a: usize, b: usize| arena.symbol(Quantity::Deviator.at([a.min(b) + 1, a.max(b) + 1]));
-        (0..self.n).map(|a| (0..self.n).map(|b| Polynomial::atom(entry(a, b))).collect()).collect()
+        table(self.n, |a, b| Polynomial::atom(entry(a, b)))
     }
 
     /// `cof (G - tr(G)/3)` through `det phi = cof G`, without the entries of `G`: `det phi_ia - cof_ia tr(G)/3` beside the diagonal,
     /// `cof_aa (3 phi_aa^2 - tr G)/3 + phi_aa o_a` on it, where `det = phi_aa cof_aa + o_a` in row `a`. The factors `phi_ia` and
     /// `cof_ia` with what they stand beside: `det`, and on the diagonal the other two.
     pub(in crate::mechanics::potential) fn on_axis(&self, arena: &mut Arena, a: usize) -> [Polynomial; 2] {
-        let mut others = Polynomial::zero();
-        for b in (0..self.n).filter(|b| *b != a) {
-            others.add_product(&self.phi[a][b], &Polynomial::atom(self.cofactors[a][b]), &Rational::ONE);
-        }
+        let others: Polynomial = (0..self.n)
+            .filter(|b| *b != a)
+            .map(|b| self.phi[a][b].mul(&Polynomial::atom(self.cofactors[a][b])))
+            .sum();
         [Polynomial::atom(axial_deviator(arena, a)), others]
     }
 
@@ -41,7 +41,7 @@ impl Strains {
             other.add_term(vec![own], &Rational::ONE);
             list.push((axial_deviator(arena, 2 * a), other));
         }
-        for (i, a) in (0..3).flat_map(|i| (0..3).map(move |a| (i, a))).filter(|(i, a)| i != a) {
+        for (i, a) in pairs(3).filter(|(i, a)| i != a) {
             value.add_product(&self.phi[i][a], &self.phi[i][a], &Rational::MINUS_ONE);
         }
         list.push((own, value));
@@ -71,7 +71,7 @@ impl Strains {
                 value.add_scaled(&self.phi[b][b], &sign);
                 value
             };
-            let mut squares = Polynomial::term(vec![difference, sum], Rational::ONE);
+            let mut squares = Polynomial::monomial([difference, sum]);
             for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
                 let beside = arena.symbol(beside_diagonal(base(index, index)));
                 squares.add_term(vec![beside], &sign);
@@ -90,7 +90,7 @@ impl Strains {
         self.axial_deviators(arena, list);
         let symbols = self.deviator(arena);
         let mut square = Polynomial::zero();
-        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+        for (a, b) in pairs(n) {
             square.add_product(&symbols[a][b], &symbols[a][b], &Rational::ONE);
             let entry = if a == b { diagonal[a].clone() } else { Polynomial::atom(base(a, b).symbol(arena)) };
             let symbol = symbols[a][b].terms().next().and_then(|(monomial, _)| monomial.first().copied());

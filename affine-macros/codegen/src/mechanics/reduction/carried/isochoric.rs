@@ -2,7 +2,7 @@
 //! `Psi = r phi` has `det Psi = 1`, and `phi^-1 = r adj Psi`.
 
 use crate::algebra::rational::exponent;
-use crate::algebra::ring::{Square, adjugate, table};
+use crate::algebra::ring::{adjugate, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::System;
@@ -114,24 +114,25 @@ fn through_the_square(arena: &mut Arena, chart: &Chart, system: &System, r: Expr
     let [det, dilatation, square] =
         arena.symbols([Quantity::Determinant, Quantity::Dilatation, Quantity::DilatationSquared]);
     let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, chart.dim).0;
-    let adjugate = adjugate(&atoms(&chart.phi.0));
+    let adjugate = adjugate(&chart.placement());
     let mut system = Powers::new(arena, chart, r, false).of_system(arena, system);
     system.shared.retain(|(symbol, _)| *symbol != det && *symbol != dilatation);
     let mut expanded = Polynomial::zero();
     for a in 0..chart.dim {
-        system.shared.push((psi[0][a], Polynomial::term(vec![r, chart.phi.0[0][a]], Rational::ONE)));
+        system.shared.push((psi[0][a], Polynomial::monomial([r, chart.phi.0[0][a]])));
         expanded.add_product(&Polynomial::atom(psi[0][a]), &adjugate[a][0], &Rational::ONE);
     }
     system.shared.push((square, expanded));
-    system.shared.push((dilatation, Polynomial::term(vec![r, square], Rational::ONE)));
+    system.shared.push((dilatation, Polynomial::monomial([r, square])));
     system
 }
 
 /// The system with `cof Psi` for the cofactors and powers of `D` and `r` for those of `det phi`.
 fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System, r: Expr) -> System {
     let n = chart.dim;
-    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n).0;
-    let adjugate = adjugate(&atoms(&psi));
+    let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
+    let adjugate = adjugate(&psi.atoms());
+    let psi = psi.0;
     let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).0;
     let inverse = Matrix::symbols(arena, Quantity::InversePlacement, n).0;
     let names = arena.symbols([Quantity::Determinant, Quantity::InverseDeterminant, Quantity::Dilatation]);
@@ -140,25 +141,19 @@ fn through_the_isochoric_part(arena: &mut Arena, chart: &Chart, system: &System,
     let inverts = system.shared.iter().any(|(symbol, _)| *symbol == inverse[0][0]);
     let redefined = [cofactors.concat(), inverse.concat(), vec![det, inverse_det, dilatation]].concat();
     system.shared.retain(|(symbol, _)| !redefined.contains(symbol));
-    for i in 0..n {
-        for a in 0..n {
-            system.shared.push((psi[i][a], Polynomial::term(vec![r, chart.phi.0[i][a]], Rational::ONE)));
-            system.shared.push((cofactors[i][a], adjugate[a][i].clone()));
-            if inverts {
-                let entry = Polynomial::term(vec![r, cofactors[i][a]], Rational::ONE);
-                system.shared.push((inverse[a][i], entry));
-            }
+    for (i, a) in pairs(n) {
+        system.shared.push((psi[i][a], Polynomial::monomial([r, chart.phi.0[i][a]])));
+        system.shared.push((cofactors[i][a], adjugate[a][i].clone()));
+        if inverts {
+            system.shared.push((inverse[a][i], Polynomial::monomial([r, cofactors[i][a]])));
         }
     }
     // D = D det Psi, expanded along the first row.
-    let mut expanded = Polynomial::zero();
-    for (entry, cofactor) in chart.phi.0[0].iter().zip(&cofactors[0]) {
-        expanded.add_term(vec![*entry, *cofactor], &Rational::ONE);
-    }
+    let expanded: Polynomial = chart.phi.0[0]
+        .iter()
+        .zip(&cofactors[0])
+        .map(|(entry, cofactor)| Polynomial::monomial([*entry, *cofactor]))
+        .sum();
     system.shared.push((dilatation, expanded));
     system
-}
-
-fn atoms(symbols: &[Vec<Expr>]) -> Square<Polynomial> {
-    table(symbols.len(), |i, a| Polynomial::atom(symbols[i][a]))
 }
