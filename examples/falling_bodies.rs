@@ -9,7 +9,8 @@
 
 use std::time::Instant;
 
-use affine_runtime::force::{AtPoint, PointForce, Space, Translation};
+use affine_runtime::force::{AtPoint, PointForce, Translation};
+use affine_runtime::frames::Space;
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
 use affine_runtime::report::{Curve, CurveDiagram, CurvePanel};

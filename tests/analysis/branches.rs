@@ -4,7 +4,8 @@ use affine_runtime::analysis::{
     AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
     branch_diagram,
 };
-use affine_runtime::force::{Body as OnBody, Force, Motion};
+use affine_runtime::force::{Force, Motion};
+use affine_runtime::frames::Body as OnBody;
 use affine_runtime::frames::Matrix;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;

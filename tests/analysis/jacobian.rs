@@ -3,7 +3,8 @@
 use affine_runtime::analysis::JacobianMatrix;
 use affine_runtime::counting::Counting;
 use affine_runtime::dual::Dual;
-use affine_runtime::force::{Body as OnBody, Force, Motion};
+use affine_runtime::force::{Force, Motion};
+use affine_runtime::frames::Body as OnBody;
 use affine_runtime::frames::Matrix;
 use affine_runtime::model::{Model, Operations, StateVector};
 use affine_runtime::nalgebra::Rotation3;

@@ -1,9 +1,8 @@
 //! Forces at material points: against the potential that they have, the same forces written by hand, and their power `f . v`.
 
 use affine_oracle::Random;
-use affine_runtime::force::{
-    AtPoint, Body as OnBody, Force, Motion, PointForce, Space as OnSpace, Translation,
-};
+use affine_runtime::force::{AtPoint, Force, Motion, PointForce, Translation};
+use affine_runtime::frames::{Body as OnBody, Space as OnSpace};
 use affine_runtime::model::Quantity;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;

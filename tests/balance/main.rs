@@ -8,7 +8,7 @@ mod power;
 
 use affine_oracle::{Differential, Place, Random, Slopes};
 use affine_runtime::balance::{Balance, CentreBalance};
-use affine_runtime::force::{self, Force, Motion};
+use affine_runtime::force::{Force, Motion};
 use affine_runtime::model::{StateVector, Velocity};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
@@ -37,7 +37,7 @@ fn potential(place: &Place) -> Differential {
 struct Stirring;
 
 impl<const N: usize> Force<N> for Stirring {
-    type Form = force::Space;
+    type Form = affine_runtime::frames::Space;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         Matrix::<N, T>::from_fn(|i, j| m.x_dot[i] * m.x[j] * m.t - m.phi_dot[(i, 0)] * m.phi[(j, 0)])
     }

@@ -2,7 +2,8 @@
 //! masses without the constraint and finds its multiplier, and follows the same motion.
 
 use affine_oracle::Constraint;
-use affine_runtime::force::{Force, Motion, Space as OnSpace};
+use affine_runtime::force::{Force, Motion};
+use affine_runtime::frames::Space as OnSpace;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 use affine_runtime::simulate::Method;

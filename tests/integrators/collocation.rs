@@ -1,7 +1,8 @@
 //! Gauss collocation where rounding is all that is left of the equations of a step: momenta that friction has taken away, and
 //! forces of contact whose derivative jumps.
 
-use affine_runtime::force::{Force, Motion, Space as OnSpace, Translation};
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::frames::Space as OnSpace;
 use affine_runtime::frames::Vector;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;

@@ -1,7 +1,8 @@
 //! Forces and potentials of fields beside metrics: their components are those of the user's bases.
 
 use affine_oracle::{Differential, Kinetic, Place as Where, Random, State, Term, rational};
-use affine_runtime::force::{Body as OnBody, Force, Motion, Space as OnSpace, Translation};
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::frames::{Body as OnBody, Space as OnSpace};
 use affine_runtime::model::Conserved;
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;

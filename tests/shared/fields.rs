@@ -1,7 +1,8 @@
 //! Forces and potentials that fields compute, and each a second time as forces on the canonical momenta.
 
 use affine_oracle::{Differential, Place as OraclePlace};
-use affine_runtime::force::{Body as OnBody, Force, Motion, Space as OnSpace, Translation};
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::frames::{Body as OnBody, Space as OnSpace};
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;

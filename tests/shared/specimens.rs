@@ -264,7 +264,7 @@ pub const BY_EQUATIONS: &[Specimen] = specimens! {
         pub struct Cubic { a: f64, d: f64, k: f64 }";
     custom_force_2: "dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 2), forces = custom(wind, spatial)",
         "/// A body.
-        pub struct Custom<F: affine_runtime::force::Force<2, Form = affine_runtime::force::Space>> {
+        pub struct Custom<F: affine_runtime::force::Force<2, Form = affine_runtime::frames::Space>> {
             /// What blows.
             pub wind: F,
         }";

@@ -1,6 +1,7 @@
 //! Pieces besides T and U: kicks by what fields compute, and friction, with their work.
 
-use affine_runtime::force::{Force, Motion, Space, Translation};
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::frames::Space;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 pub(crate) use affine_tests::fields::{Field, Spring, Wall};
@@ -46,7 +47,7 @@ impl<const N: usize> Force<N> for Twist {
 pub(crate) struct Squeeze(pub(crate) Twist);
 
 impl<const N: usize> Force<N> for Squeeze {
-    type Form = affine_runtime::force::Body;
+    type Form = affine_runtime::frames::Body;
     fn force<T: Scalar>(&self, m: &Motion<N, T>) -> Matrix<N, T> {
         <Twist as Force<N>>::force(&self.0, m)
     }

@@ -1,7 +1,8 @@
 //! A force of positions alone, seen from the body.
 
 use affine_runtime::decompose::LinearMap;
-use affine_runtime::force::{Body as OnBody, Force, Motion};
+use affine_runtime::force::{Force, Motion};
+use affine_runtime::frames::Body as OnBody;
 use affine_runtime::frames::Matrix;
 use affine_runtime::scalar::Scalar;
 

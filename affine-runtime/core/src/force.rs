@@ -7,11 +7,9 @@
 //!
 //! (balance laws (3.1), (4.9), (4.11) of Slawianowski et al.).
 
-use crate::frames::{Matrix, Vector};
+use crate::frames::{Body, Matrix, Space, Vector};
 use crate::matrix::inverse;
 use crate::scalar::Scalar;
-
-pub use crate::frames::{Body, Space};
 
 /// What a force is told: a placement and its velocity at a time, in the bases that the user states the model in, whatever
 /// its metrics; there it answers.

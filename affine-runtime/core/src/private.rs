@@ -50,7 +50,8 @@ use crate::parts::{Basis, Translation};
 
 /// Forms of forces, by the names of the specification.
 pub mod force {
-    pub use crate::force::{Body as Comoving, Space as Spatial, Translation};
+    pub use crate::force::Translation;
+    pub use crate::frames::{Body as Comoving, Space as Spatial};
 }
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.

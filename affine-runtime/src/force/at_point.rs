@@ -2,9 +2,9 @@
 
 use core::marker::PhantomData;
 
-use affine_core::force::{Body, Force, Motion, Space, Translation};
+use affine_core::force::{Force, Motion, Translation};
 
-use crate::frames::{Matrix, Vector};
+use crate::frames::{Body, Matrix, Space, Vector};
 use crate::scalar::Scalar;
 
 /// A force on a material point as a function of where the point is and how it moves, in space: contact, a spring, the wind on
@@ -29,7 +29,8 @@ pub trait PointForce<const N: usize> {
 /// in two fields; of the others that of its own frame costs less. A body whose centre is fixed feels one of the others alone.
 ///
 /// ```
-/// use affine_runtime::force::{AtPoint, PointForce, Space, Translation};
+/// use affine_runtime::force::{AtPoint, PointForce, Translation};
+/// use affine_runtime::frames::Space;
 /// use affine_runtime::prelude::*;
 /// use affine_runtime::scalar::Scalar;
 ///

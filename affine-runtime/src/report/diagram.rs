@@ -34,6 +34,7 @@ const LETTER: f64 = 7.2;
 pub struct WorkPrecisionDiagram {
     title: String,
     error: String,
+    /// At least one.
     parts: Vec<Part>,
 }
 
@@ -56,12 +57,16 @@ impl WorkPrecisionDiagram {
     /// t = 10`.
     #[must_use]
     pub fn new(title: impl Into<String>, error: impl Into<String>) -> Self {
-        Self { title: title.into(), error: error.into(), parts: Vec::new() }
+        Self { title: title.into(), error: error.into(), parts: vec![Part::default()] }
     }
 
     /// Begins a panel: what is added from here on stands in it.
     #[must_use]
     pub fn panel(mut self, name: impl Into<String>) -> Self {
+        // The panel that a new diagram has is there for what is added without one.
+        if self.parts == [Part::default()] {
+            self.parts.clear();
+        }
         self.parts.push(Part { name: name.into(), series: Vec::new() });
         self
     }
@@ -70,9 +75,8 @@ impl WorkPrecisionDiagram {
     #[must_use]
     pub fn series(mut self, name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let series = Series { name: name.into(), points: points.into_iter().collect() };
-        match self.parts.last_mut() {
-            Some(part) => part.series.push(series),
-            None => self.parts.push(Part { name: String::new(), series: vec![series] }),
+        if let Some(part) = self.parts.last_mut() {
+            part.series.push(series);
         }
         self
     }

@@ -283,10 +283,12 @@ fn curves_have_room_for_their_title() {
 
 #[test]
 fn empty_diagrams_are_drawn() {
-    let text = doomed().diagram().to_svg();
-    let picture = Picture::of(&text);
-    assert_eq!(picture.polylines(), [0; 0]);
-    picture.assert_legible();
+    for diagram in [doomed().diagram(), WorkPrecisionDiagram::new("Nothing was measured", "error")] {
+        let text = diagram.to_svg();
+        let picture = Picture::of(&text);
+        assert_eq!(picture.polylines(), [0; 0]);
+        picture.assert_legible();
+    }
 }
 
 #[test]

@@ -74,3 +74,23 @@ pub(super) fn scene(
 ) -> Scene {
     Scene { model, n, scene, quantity, oracle }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Matrix, relative_distance_by_rows};
+
+    #[test]
+    fn a_row_that_is_no_number_is_not_passed_over() {
+        let b = Matrix::<3>::new(1.0, 2.0, 3.0, 4e200, 5e200, 6e200, 0.0, 0.0, 0.0);
+        assert_eq!(relative_distance_by_rows(&b, &b), 0.0);
+        let mut a = b;
+        a[(1, 2)] = 6.6e200;
+        let expected = 0.6 / 77.0_f64.sqrt();
+        assert!((relative_distance_by_rows(&a, &b) - expected).abs() < 1e-15);
+        for row in 0..3 {
+            let mut a = b;
+            a[(row, 0)] = f64::NAN;
+            assert!(relative_distance_by_rows(&a, &b).is_nan(), "row {row}");
+        }
+    }
+}

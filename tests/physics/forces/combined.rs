@@ -2,7 +2,8 @@
 //! another statement.
 
 use affine_oracle::Random;
-use affine_runtime::force::{Force, Motion, Space as OnSpace};
+use affine_runtime::force::{Force, Motion};
+use affine_runtime::frames::Space as OnSpace;
 use affine_runtime::model::{Conserved, Description};
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;

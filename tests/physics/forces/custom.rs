@@ -2,7 +2,8 @@
 //! the canonical momenta, `N = phi^-1 Q = Q_hat phi^-1`.
 
 use affine_oracle::{Kinetic, Random, State};
-use affine_runtime::force::{Body as OnBody, Force, Motion, Translation};
+use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::frames::Body as OnBody;
 use affine_runtime::model::{Conserved, Description, Quantity};
 use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
