@@ -10,7 +10,6 @@ mod potential;
 mod traces;
 
 use crate::algebra::{Arena, Expr, Matrix, Rational};
-
 use crate::mechanics::custom::{By, Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;

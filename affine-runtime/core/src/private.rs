@@ -19,8 +19,9 @@ pub use crate::decompose::{
 pub use crate::dissipation::{semidefinite, semidefinite_form};
 pub use crate::divisor::{Divisor, over};
 pub use crate::error::Result;
+pub use crate::force;
 pub use crate::frames::{Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector};
-pub use crate::geodesic::{Geodesic, Orbit as Motion};
+pub use crate::geodesic::{Geodesic, Orbit};
 pub use crate::kinematics::dilatation::far_from_undeformed;
 pub use crate::lanes::{Lanes, gathered, in_lane};
 pub use crate::matrix_field::symmetric_part;
@@ -47,12 +48,6 @@ pub use crate::vectors::Vectors;
 
 use crate::frames::Frame;
 use crate::parts::{Basis, Translation};
-
-/// Forms of forces, by the names of the specification.
-pub mod force {
-    pub use crate::force::Translation;
-    pub use crate::frames::{Body as Comoving, Space as Spatial};
-}
 
 /// The phase point with placement `phi`, a momentum given in any frame, and `centre`.
 ///

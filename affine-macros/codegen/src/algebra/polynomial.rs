@@ -324,12 +324,12 @@ impl Sum for Polynomial {
     fn sum<I: Iterator<Item = Self>>(summands: I) -> Self {
         let mut sum = Self::zero();
         for summand in summands {
-            match () {
-                () if sum.is_zero() => sum = summand,
-                () if summand.terms.len() < COLLECTED => {
-                    summand.terms.into_iter().for_each(|(monomial, c)| sum.add_term(monomial, &c));
-                }
-                () => sum.collect(summand.terms),
+            if sum.is_zero() {
+                sum = summand;
+            } else if summand.terms.len() < COLLECTED {
+                summand.terms.into_iter().for_each(|(monomial, c)| sum.add_term(monomial, &c));
+            } else {
+                sum.collect(summand.terms);
             }
         }
         sum

@@ -4,7 +4,6 @@ use rustc_hash::FxHashMap;
 
 use super::arena::{Arena, Expr, Node};
 use super::function::Function;
-
 use crate::symbol::Symbol;
 
 impl Arena {

@@ -4,7 +4,6 @@ use super::{definite, dissipation, momentum_side, smooth, together, two_polar, u
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
 use crate::lower::{self, PotentialEnergy};
-
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::form::{Form, Mass, Positive};

@@ -74,7 +74,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     });
     let motion = match (components, &context.model.point.isotropic) {
         (Components::TwoPoint, _) | (_, None) => quote! {
-            let motion = #rt::Motion::straight(#velocity.phi_dot);
+            let motion = #rt::Orbit::straight(#velocity.phi_dot);
         },
         (components, Some(program)) => {
             let Body { lets, results } = context.double(program);
@@ -84,7 +84,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             };
             let (quadratic, cubic) = results.split_at(3.min(results.len()));
             let squared = cubic.first().map(|casimir3| quote!(.with_square(&#spin, #casimir3)));
-            quote!(#lets let motion = #rt::Motion::#make(&#spin, [#(#quadratic),*])#squared;)
+            quote!(#lets let motion = #rt::Orbit::#make(&#spin, [#(#quadratic),*])#squared;)
         }
     };
     quote! {

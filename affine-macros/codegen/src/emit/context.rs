@@ -119,14 +119,11 @@ impl Context<'_> {
         let (n, rt) = (self.dim(), Ident::new(&self.names.rt.to_string(), at));
         let name = Ident::new(&name.to_string(), at);
         let field = if self.has_fields { &name } else { &custom.field };
-        let force = |form| {
-            let form = Ident::new(form, at);
-            quote_spanned!(at=> as_force::<#n, #rt::force::#form, _>)
-        };
+        let force = |form: TokenStream| quote_spanned!(at=> as_force::<#n, #form, _>);
         let function = match custom.role.value {
-            Role::Spatial => force("Spatial"),
-            Role::Comoving => force("Comoving"),
-            Role::Translation => force("Translation"),
+            Role::Spatial => force(quote_spanned!(at=> #rt::Space)),
+            Role::Comoving => force(quote_spanned!(at=> #rt::Body)),
+            Role::Translation => force(quote_spanned!(at=> #rt::force::Translation)),
             Role::Isotropic | Role::Green | Role::Finger | Role::General => {
                 quote_spanned!(at=> as_potential::<#n, _>)
             }

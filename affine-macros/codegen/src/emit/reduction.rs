@@ -92,7 +92,6 @@ fn reduced_equations(context: &Context) -> TokenStream {
     let coefficients = pattern(&kept, &used);
     let read = (!kept.is_empty()).then(|| quote!(let #coefficients = constants.coefficients;));
     let constants = if kept.is_empty() { quote!(_constants) } else { quote!(constants) };
-
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let time = time(program);
     let inline = context.inline();

@@ -2,12 +2,11 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::{Arena, Expr};
+use crate::derive::batch::program;
 use crate::ir::Program;
 use crate::mechanics::two_polar::Ratios;
 use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
-
-use crate::derive::batch::program;
 
 /// The equations in ratios.
 pub struct RatioProgram {

@@ -5,9 +5,8 @@ use crate::algebra::ring::{Square, pairs, skew, sum, table};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
-use crate::mechanics::symmetry::{Group, Side, broken_by};
-
 use crate::mechanics::shared::frame_of;
+use crate::mechanics::symmetry::{Group, Side, broken_by};
 
 use super::Dissipation;
 

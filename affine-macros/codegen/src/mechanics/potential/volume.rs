@@ -3,9 +3,8 @@
 
 use crate::algebra::arena::Node;
 use crate::algebra::rational::exponent;
-use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
-
 use crate::algebra::ring::adjugate;
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::symbol::Quantity;
 

@@ -5,7 +5,6 @@ mod isochoric;
 
 use crate::algebra::passage::{MatrixFunction, Statement, Tensor};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
