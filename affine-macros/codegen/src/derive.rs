@@ -36,7 +36,7 @@ use crate::optimise::straight_line;
 use crate::symbol::{Capability, Quantity};
 
 use body::Kept;
-use prepared::{coefficient_program, damping, numeric_blocks};
+use prepared::{coefficient_program, damping, in_order, inverted, well_posed};
 use programs::Reduced;
 use ways::Ways;
 
@@ -45,12 +45,13 @@ pub use conserved::{Component, Conserved};
 pub use domain::{Domain, Sign, SignedArgument};
 pub use equations::Equations;
 pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
-pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource, Preparation};
-use model::{Dynamics, Facts, Methods, Prepared};
+pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource};
+use model::{Dynamics, Facts, Methods};
 pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, Variational, VelocitySide};
+pub use prepared::{Prepared, Step};
 pub use quantities::{Balance, BalancedQuantities, Metric, Quantities};
 pub use symbols::{VolumeMeasure, reads_time};
-pub use well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
+pub use well_posed::{Condition, Factor, NumericBlock, Relation};
 pub use written::{Part, Written};
 
 /// Derives a model; `None` only for energies that the checks refuse.
@@ -101,6 +102,25 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     });
     let regularity = conditions::regularity(arena, &motion, positive, require_positive, &mut coefficients)?;
     let quantities = body.quantities(arena, &chart, asked, &mut coefficients)?;
+    let description = Facts {
+        conserved: Conserved::of(arena, &notation, &moving),
+        conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
+        signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
+        has_forces: !body.is_free(),
+        groups: (form.space_group, form.body_group),
+        formulas,
+    };
+    let conditions = match &stated {
+        None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
+        Some(stated) => stated::conditions(arena, stated, require_positive),
+    };
+    let checks = well_posed(conditions)
+        .chain(inverted(arena, free.as_ref().unwrap_or(&motion), require_positive))
+        .chain(pieces.axes.into_iter().map(Step::PrincipalAxes))
+        .chain(damping(arena, &forces))
+        .collect();
+    let change = form.metrics.map(|metrics| ChangeOfBases::of(arena, metrics, &form.rebased));
+    let (metrics, bases) = change.unzip();
     let model = Model {
         dim: motion.dim(),
         constraint: motion.constraint(),
@@ -118,14 +138,7 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             closed_form,
             dilatation,
         },
-        description: Facts {
-            conserved: Conserved::of(arena, &notation, &moving),
-            conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
-            signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
-            has_forces: !body.is_free(),
-            groups: (form.space_group, form.body_group),
-            formulas,
-        },
+        description,
         methods: Methods {
             two_polar,
             taylor: None,
@@ -135,15 +148,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
             packed: None,
             unconstrained,
         },
+        metrics,
         prepared: Prepared {
+            steps: in_order(bases.flatten(), checks),
             coefficients: coefficient_program(arena, &coefficients),
-            numeric_blocks: numeric_blocks(arena, free.as_ref().unwrap_or(&motion), require_positive),
-            conditions: match &stated {
-                None => conditions::conditions(arena, &motion, hessian.as_ref(), require_positive),
-                Some(stated) => stated::conditions(arena, stated, require_positive),
-            },
-            damping: damping(arena, &forces),
-            metrics: form.metrics.map(|metrics| ChangeOfBases::of(arena, metrics, &form.rebased)),
         },
     };
     Some(model.completed(asked))

@@ -50,7 +50,7 @@ use parametric::Method;
 
 /// The user's item and everything that belongs to it.
 pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
-    let bases_of_fields = matches!(model.prepared.metrics, Some(ChangeOfBases::Prepared(_)));
+    let bases_of_fields = matches!(model.metrics, Some(ChangeOfBases::Prepared));
     let has_fields = !model.prepared.coefficients.outputs.is_empty() || bases_of_fields;
     let names = Names::new(spec, has_fields);
     let runtime = runtime(spec.runtime.as_ref());

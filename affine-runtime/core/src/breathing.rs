@@ -93,7 +93,7 @@ impl<T: Real> Breathing<T> {
         let (q, v) = match self.path {
             Path::Free { q, v } => (q + v * elapsed, v),
             Path::Harmonic { q, v, w } => {
-                let (sin, cos) = ((w * elapsed).sin(), (w * elapsed).cos());
+                let (sin, cos) = (w * elapsed).sin_cos();
                 (q * cos + v / w * sin, v * cos - w * q * sin)
             }
             Path::Runaway { q, v, w } => {

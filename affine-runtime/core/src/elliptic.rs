@@ -44,7 +44,7 @@ pub(crate) fn jacobi<T: Real>(u: T, m1: T) -> Jacobi<T> {
         b = a * root;
         a = c;
     }
-    let (sin, cos) = ((u * c).sin(), (u * c).cos());
+    let (sin, cos) = (u * c).sin_cos();
     if sin == T::zero() {
         return Jacobi { sn: sin, cn: cos, dn: T::one() };
     }

@@ -100,6 +100,12 @@ pub trait Scalar:
     /// Cosine.
     #[must_use]
     fn cos(self) -> Self;
+    /// Sine and cosine, each as it is alone.
+    #[must_use]
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
     /// Tangent.
     #[must_use]
     fn tan(self) -> Self;

@@ -57,7 +57,7 @@ pub trait LatticePieces<const N: usize>: LatticeForm<N> {
 #[inline]
 pub fn rotation<T: Scalar>(w: T) -> [T; 2] {
     let half = w * T::constant(0.5, 0.0);
-    let (s, c) = (half.sin(), half.cos());
+    let (s, c) = half.sin_cos();
     let twice = s + s;
     [twice * c, -(twice * s)]
 }

@@ -63,7 +63,7 @@ pub(super) fn departure<E>(
         going = match going {
             Some((toward, _)) if side == Some(Side::opposite(toward)) => Some((toward.opposite(), None)),
             None => before.filter(|(_, before)| Side::of(*before) == side).and_then(|(from, before)| {
-                let is_linear = change.abs() < before.abs() * (s / from).powf(LINEAR);
+                let is_linear = change.abs() < before.abs() * libm::pow(s / from, LINEAR);
                 Some((side?, is_linear.then(|| (before / from).abs())))
             }),
             known => known,

@@ -45,7 +45,7 @@ impl Polynomial {
 
 /// Chebyshev point `k` of `0..=degree`, as a part of the interval; the points of a degree are among those of its double.
 fn chebyshev(k: usize, degree: usize) -> f64 {
-    let sine = (PI * k as f64 / (2 * degree) as f64).sin();
+    let sine = libm::sin(PI * k as f64 / (2 * degree) as f64);
     sine * sine
 }
 

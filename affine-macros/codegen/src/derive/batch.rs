@@ -27,6 +27,11 @@ pub(super) fn unbound(arena: &mut Arena, results: Vec<(Symbol, Polynomial)>) -> 
     fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
 }
 
+/// The program of values over the fields alone.
+pub(super) fn values(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
+    unbound(arena, values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect())
+}
+
 /// The rates, and the power where the work is part of the motion.
 pub(super) fn batch(arena: &Arena, system: &System) -> Batch {
     let rates = system.rates.iter().map(|(_, symbol, rate)| (*symbol, rate));

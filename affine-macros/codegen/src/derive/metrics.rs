@@ -6,35 +6,41 @@ use crate::ir::Program;
 use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 use crate::mechanics::term::Frame;
 
+use super::batch::values;
 use super::components::Components;
-use super::prepared::values;
 
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
 pub enum ChangeOfBases {
     /// The bases of metrics that are numbers.
     Known(Bases),
     /// From the fields, when the model is prepared.
-    Prepared(Preparation),
+    Prepared,
 }
 
 impl ChangeOfBases {
-    pub(super) fn of(arena: &mut Arena, metrics: Metrics, rebased: &[Rebased]) -> Self {
+    /// With what `prepare()` does for it.
+    pub(super) fn of(
+        arena: &mut Arena,
+        metrics: Metrics,
+        rebased: &[Rebased],
+    ) -> (Self, Option<Preparation>) {
         match metrics {
-            Metrics::Known(bases) => Self::Known(bases),
-            Metrics::Given(given) => Self::Prepared(Preparation {
-                metrics: given.map(|rows| entries(arena, &rows.concat())),
-                matrices: rebased.iter().map(|matrix| GivenMatrix::of(arena, matrix)).collect(),
-            }),
+            Metrics::Known(bases) => (Self::Known(bases), None),
+            Metrics::Given(given) => {
+                let metrics = given.map(|rows| entries(arena, &rows.concat()));
+                let matrices = rebased.iter().map(|matrix| GivenMatrix::of(arena, matrix)).collect();
+                (Self::Prepared, Some(Preparation { metrics, matrices }))
+            }
         }
     }
 }
 
 /// What `prepare()` does for the change.
-pub struct Preparation {
+pub(super) struct Preparation {
     /// Programs of the entries of `g` and `eta`, row after row.
-    pub metrics: [Program; 2],
+    pub(super) metrics: [Program; 2],
     /// Inertias and tensors that it carries to orthonormal bases, and factors of these that potentials read.
-    pub matrices: Vec<GivenMatrix>,
+    pub(super) matrices: Vec<GivenMatrix>,
 }
 
 /// A matrix that coefficients read.

@@ -5,8 +5,8 @@ use super::domain::Domain;
 use super::equations::Equations;
 use super::lattice::TwoPolar;
 use super::metrics::ChangeOfBases;
+use super::prepared::Prepared;
 use super::quantities::Quantities;
-use super::well_posed::{Condition, Damping, NumericBlock};
 use super::{second_order, splitting};
 use crate::algebra::passage::Passage;
 use crate::ir::Program;
@@ -39,6 +39,8 @@ pub struct Model {
     pub point: PointPrograms,
     /// Quantities that are emitted where they are asked for.
     pub quantities: Quantities,
+    /// Metrics other than the identity.
+    pub metrics: Option<ChangeOfBases>,
     /// What `prepare()` computes and checks.
     pub prepared: Prepared,
     /// Hamilton's equations and the motion as it is integrated.
@@ -70,20 +72,6 @@ pub struct PointPrograms {
     pub power: Option<Program>,
     /// `1/alpha`, `1/beta`, `1/mu` of an isotropic model, and the coefficient of `C(3)/3` where there is one.
     pub isotropic: Option<Program>,
-}
-
-/// What `prepare()` computes and checks.
-pub struct Prepared {
-    /// Coefficients that depend on the fields, and the program that computes them when the model is prepared.
-    pub coefficients: Program,
-    /// Inverse blocks that need numbers.
-    pub numeric_blocks: Vec<NumericBlock>,
-    /// What `prepare()` must find different from zero.
-    pub conditions: Vec<Condition>,
-    /// What `prepare()` must find not negative in the dissipation.
-    pub damping: Damping,
-    /// Metrics other than the identity.
-    pub metrics: Option<ChangeOfBases>,
 }
 
 /// Hamilton's equations and the motion as it is integrated.

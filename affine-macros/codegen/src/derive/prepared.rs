@@ -1,4 +1,4 @@
-//! What is computed when the fields have values: conditions, coefficients, inverse blocks.
+//! What is computed when the fields have values, step after step: bases, conditions, inverse blocks; then the coefficients.
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::upper;
@@ -8,15 +8,76 @@ use crate::mechanics::direction::Direction;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Coefficient;
-use crate::symbol::Quantity;
 
-use super::batch::unbound;
-use super::well_posed::{Condition, Damping, Factor, NumericBlock, Relation};
+use super::batch::{unbound, values};
+use super::metrics::{GivenMatrix, Preparation};
+use super::splitting::PrincipalProgram;
+use super::well_posed::{Condition, Factor, NumericBlock, Relation};
+
+/// What `prepare()` computes and checks.
+pub struct Prepared {
+    /// What comes first, in its order; later ones read what earlier ones found.
+    pub steps: Vec<Step>,
+    /// Coefficients that depend on the fields, and the program that computes them after all steps.
+    pub coefficients: Program,
+}
+
+/// A step of `prepare()`. Those that check or invert end it where the values do not allow them.
+pub enum Step {
+    /// The bases in which the metrics are the identity are found, from the entries of `g` and `eta`, row after row.
+    Bases([Program; 2]),
+    /// An inertia or a tensor is carried to these bases, which are found before.
+    Rebased(GivenMatrix),
+    /// What must not vanish; the first that does is told.
+    WellPosed(Vec<Condition>),
+    /// A block is inverted.
+    Inverse(NumericBlock),
+    /// A form is brought to its principal axes.
+    PrincipalAxes(PrincipalProgram),
+    /// What must not be negative.
+    Semidefinite(Vec<Condition>),
+    /// A block whose eigenvalues must not be negative; no inverse is formed.
+    SemidefiniteForm(NumericBlock),
+}
+
+impl Prepared {
+    /// What must not vanish, of all steps.
+    pub fn conditions(&self) -> impl Iterator<Item = &Condition> {
+        self.steps.iter().flat_map(|step| match step {
+            Step::WellPosed(conditions) => conditions.as_slice(),
+            _ => &[],
+        })
+    }
+
+    /// Blocks that are inverted.
+    pub fn inverted(&self) -> impl Iterator<Item = &NumericBlock> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Inverse(block) => Some(block),
+            _ => None,
+        })
+    }
+}
+
+/// All steps in their order: what is carried to orthonormal bases is looked at in them, and else these bases come last.
+pub(super) fn in_order(bases: Option<Preparation>, mut checks: Vec<Step>) -> Vec<Step> {
+    let Some(Preparation { metrics, matrices }) = bases else { return checks };
+    let place = if matrices.is_empty() { checks.len() } else { 0 };
+    let bases = std::iter::once(Step::Bases(metrics)).chain(matrices.into_iter().map(Step::Rebased));
+    checks.splice(place..place, bases);
+    checks
+}
+
+/// What must not vanish: eigenvalues share one threshold, a mass has its own.
+pub(super) fn well_posed(conditions: Vec<Condition>) -> impl Iterator<Item = Step> {
+    let of_mass = |condition: &Condition| matches!(condition.factor, Factor::Mass(_));
+    let (masses, eigenvalues): (Vec<_>, Vec<_>) = conditions.into_iter().partition(of_mass);
+    [eigenvalues, masses].into_iter().filter(|conditions| !conditions.is_empty()).map(Step::WellPosed)
+}
 
 /// What `prepare()` has to find not negative in the dissipation.
-pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
-    let mut damping = Damping::default();
-    let Some(dissipation) = &forces.dissipation else { return damping };
+pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
+    let Some(dissipation) = &forces.dissipation else { return Vec::new() };
+    let (mut conditions, mut blocks) = (Vec::new(), Vec::new());
     let mut known: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
     for part in &dissipation.parts {
         let isotropic = part.form.terms.iter().all(|term| matches!(term.value, Coefficient::Scalar(_)));
@@ -34,7 +95,7 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
                     known.push((name, directions, value));
                 }
                 None if block.numbers().is_none() => {
-                    damping.blocks.push(form_block(arena, &block.form, false))
+                    blocks.push(Step::SemidefiniteForm(form_block(arena, &block.form, false)));
                 }
                 None => {}
             }
@@ -47,11 +108,12 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Damping {
     for (name, directions, value) in known {
         if !listed.contains(&(name, directions, value.clone())) {
             let (factor, asked) = (Factor::Eigenvalue(name), (Relation::MomentumOfVelocity, false));
-            damping.conditions.extend(Condition::of(arena, (factor, directions), asked, &value));
+            conditions.extend(Condition::of(arena, (factor, directions), asked, &value));
             listed.push((name, directions, value));
         }
     }
-    damping
+    let conditions = (!conditions.is_empty()).then_some(Step::Semidefinite(conditions));
+    conditions.into_iter().chain(blocks).collect()
 }
 
 impl Condition {
@@ -74,28 +136,20 @@ fn summands(sum: &Polynomial) -> Vec<Polynomial> {
     sum.terms().map(|(monomial, c)| Polynomial::term(monomial.clone(), c.clone())).collect()
 }
 
-/// The program of values over the fields alone.
-pub(super) fn values(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    unbound(arena, values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect())
-}
-
 pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -> Program {
     let results = coefficients.entries.iter().map(|(s, p)| (arena.symbol_of(*s), p.clone())).collect();
     unbound(arena, results)
 }
 
-/// The inverse blocks that only the fields' values give.
-pub(super) fn numeric_blocks(arena: &mut Arena, motion: &Motion, required: bool) -> Vec<NumericBlock> {
+/// The blocks that only the fields' values invert.
+pub(super) fn inverted(arena: &mut Arena, motion: &Motion, required: bool) -> Vec<Step> {
     let positive = required || motion.polynomial().is_some_and(|(kinetic, _)| kinetic.is_dalembert());
-    motion
-        .numeric_blocks()
-        .iter()
-        .map(|block| {
-            let name = |s: Expr| arena.symbol_of(s);
-            let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
-            NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
-        })
-        .collect()
+    let blocks = motion.numeric_blocks().iter().map(|block| {
+        let name = |s: Expr| arena.symbol_of(s);
+        let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
+        NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
+    });
+    blocks.map(Step::Inverse).collect()
 }
 
 /// A symmetric form to be looked at in numbers.

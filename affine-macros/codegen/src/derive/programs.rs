@@ -17,7 +17,7 @@ use crate::symbol::{Asked, Capability, Quantity, Symbol};
 use super::batch::{batch, program as program_of, split_batch, unbound};
 use super::equations::Equations;
 use super::second_order::Halves;
-use super::splitting::Programs;
+use super::splitting::{PrincipalProgram, Programs};
 use super::ways::Run;
 
 impl Body<'_> {
@@ -61,7 +61,8 @@ impl Body<'_> {
             let split = split.and_then(|h| Programs::of(arena, (h, self), reduction, constants));
             let halves = h.filter(|_| asked.has(Capability::Nystrom));
             let second_order = halves.and_then(|h| Halves::of(arena, (h, self), reduction, constants));
-            Pieces { splitting: split, second_order }
+            let (splitting, axes) = split.unzip();
+            Pieces { splitting, axes: axes.unwrap_or_default(), second_order }
         };
         shortest_reduction(arena, reductions, time, pieces, coefficients)
     }
@@ -129,6 +130,8 @@ fn dependent(arena: &mut Arena, chart: &Chart) -> Program {
 pub(super) struct Pieces {
     /// The flows of the pieces of `H`.
     pub(super) splitting: Option<Programs>,
+    /// Forms whose principal axes these read.
+    pub(super) axes: Vec<PrincipalProgram>,
     /// The halves of the equations.
     pub(super) second_order: Option<Halves>,
 }

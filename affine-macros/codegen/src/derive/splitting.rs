@@ -10,16 +10,13 @@ use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
 
-use super::batch::{self, batch};
-use super::prepared::values;
+use super::batch::{self, batch, values};
 use crate::algebra::passage::DilatationalMotion;
 
 /// The pieces of a reduced motion.
 pub struct Programs {
     /// Name and flows of each.
     pub pieces: Vec<(String, Vec<FlowProgram>)>,
-    /// Forms whose principal axes the fields' values give.
-    pub principal: Vec<PrincipalProgram>,
     /// See [`Splitting`](crate::mechanics::splitting::Splitting).
     pub nystrom: bool,
 }
@@ -87,13 +84,14 @@ impl FlowProgram {
 }
 
 impl Programs {
-    /// The pieces of the chosen reduction; coefficients that a trajectory fixes join `constants`.
+    /// The pieces of the chosen reduction, and the forms that they need on their principal axes; coefficients that a
+    /// trajectory fixes join `constants`.
     pub(super) fn of(
         arena: &mut Arena,
         (h, body): (&Hamiltonian, &Body),
         reduction: &Reduction,
         constants: &mut Constants,
-    ) -> Option<Self> {
+    ) -> Option<(Self, Vec<PrincipalProgram>)> {
         let split = splitting(arena, (h, body), reduction)?;
         let mut varying = reduction.symbols();
         varying.extend(body.time(arena));
@@ -104,8 +102,8 @@ impl Programs {
             let flows = flows.map(|flow| written(arena, flow, reduction, &varying, constants)).collect();
             pieces.push((piece.name, flows));
         }
-        let principal = split.principal.iter().map(|form| principal(arena, form)).collect();
-        Some(Self { pieces, principal, nystrom: split.nystrom })
+        let axes = split.principal.iter().map(|form| principal(arena, form)).collect();
+        Some((Self { pieces, nystrom: split.nystrom }, axes))
     }
 }
 

@@ -45,16 +45,7 @@ pub enum Relation {
     VelocityOfMomentum,
 }
 
-/// What must not be negative once the fields have values.
-#[derive(Default)]
-pub struct Damping {
-    /// Eigenvalues and coefficients.
-    pub conditions: Vec<Condition>,
-    /// Blocks whose eigenvalues need numbers; no inverse is formed.
-    pub blocks: Vec<NumericBlock>,
-}
-
-/// A block to invert numerically.
+/// A block to be inverted, or looked at, in numbers.
 pub struct NumericBlock {
     /// Computes the upper triangle, row after row, then the terms whose sizes make the threshold.
     pub program: Program,

@@ -4,10 +4,9 @@
 use super::second_order::Halves;
 use super::splitting::{FlowProgram, PrincipalProgram, Programs};
 use super::{
-    Balance, BalancedQuantities, ChangeOfBases, Condition, Damping, Domain, Dynamics, Equations, GivenMatrix,
+    Balance, BalancedQuantities, ChangeOfBases, Condition, Domain, Dynamics, Equations, GivenMatrix,
     GivenSource, Methods, Metric, MixedMasses, Model, NumericBlock, PieceProgram, PiecePrograms,
-    PointPrograms, Preparation, Prepared, Quantities, RatioProgram, Regularity, TwoPolar, Variational,
-    VelocitySide,
+    PointPrograms, Prepared, Quantities, RatioProgram, Regularity, Step, TwoPolar, Variational, VelocitySide,
 };
 use crate::algebra::Rational;
 use crate::ir::packed::Packed;
@@ -117,14 +116,14 @@ macro_rules! written {
 
 written! {
     Model {
-        regularity, point, quantities, prepared, dynamics, methods;
+        regularity, point, quantities, metrics, prepared, dynamics, methods;
         dim, constraint, frame, translation, description
     }
     PointPrograms {
         velocity_side, velocity, mass, mixed_masses, hamiltonian, hamiltonian_far_away, domain, power, isotropic;
     }
     Quantities { metric, acceleration, balance; }
-    Prepared { coefficients, numeric_blocks, conditions, damping, metrics; }
+    Prepared { steps, coefficients; }
     Dynamics { full, reduced, trajectory, dilatation; reduction, passage, closed_form }
     Methods { two_polar, taylor, splitting, tangent, second_order, packed, unconstrained; }
     Variational { program; }
@@ -137,18 +136,16 @@ written! {
     Balance { internal, centre; }
     BalancedQuantities { program; quantities }
     Condition { program; factor, directions, relation, positive }
-    Damping { conditions, blocks; }
     NumericBlock { program, basis; inverse, size, positive }
     Bases { space, body; }
     Factor { matrix, inverse; axes }
-    Preparation { metrics, matrices; }
     GivenMatrix { source; number }
     TwoPolar { rates, framed, energy, pieces, ratios; places, state, frames, couplings, formulas, dilatation_only }
     PiecePrograms { list; nystrom }
     PieceProgram { program; name, shifted, turned }
     RatioProgram { program; state, couplings }
     Halves { velocity, force; positions, momenta }
-    Programs { pieces, principal; nystrom }
+    Programs { pieces; nystrom }
     PrincipalProgram { program; values, vectors }
     Recurrence { program, start; moving, ready, rules, lanes, row, vectors, full, inner, columns }
     Packed { program; state, vectors, steps, in_lanes, rates }
@@ -158,7 +155,19 @@ impl Written for ChangeOfBases {
     fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         match self {
             Self::Known(bases) => bases.visit(each),
-            Self::Prepared(preparation) => preparation.visit(each),
+            Self::Prepared => {}
+        }
+    }
+}
+
+impl Written for Step {
+    fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
+        match self {
+            Self::Bases(entries) => entries.visit(each),
+            Self::Rebased(matrix) => matrix.visit(each),
+            Self::WellPosed(conditions) | Self::Semidefinite(conditions) => conditions.visit(each),
+            Self::Inverse(block) | Self::SemidefiniteForm(block) => block.visit(each),
+            Self::PrincipalAxes(form) => form.visit(each),
         }
     }
 }

@@ -42,11 +42,11 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     let straight = components == Components::TwoPoint;
     let spin = own_spin(context);
     let typed = context.bases(Some(&f64), Coefficients::Own);
-    let velocity = match context.model.prepared.metrics {
+    let velocity = match context.model.metrics {
         None => quote!(#rt::Model::velocity(self, point)),
         Some(_) => quote!(#typed.velocity(&#rt::Model::velocity(self, stated))),
     };
-    let stated = (context.model.prepared.metrics.is_some() && straight).then(|| quote!(let stated = point;));
+    let stated = (context.model.metrics.is_some() && straight).then(|| quote!(let stated = point;));
     // A straight line reads the velocity alone, and the momentum of a free centre.
     let inward = (!straight || drifts).then(|| context.inward(Coefficients::Own));
     let collapse = straight.then(|| {

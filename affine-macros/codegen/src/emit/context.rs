@@ -92,7 +92,7 @@ impl Context<'_> {
     /// Type of phase points over a scalar.
     pub(super) fn point(&self, scalar: &TokenStream) -> TokenStream {
         let (rt, n, frame, centre) = (&self.names.rt, self.dim(), self.frame(), self.centre(scalar));
-        let basis = self.model.prepared.metrics.is_some().then(|| quote!(, #rt::Given));
+        let basis = self.model.metrics.is_some().then(|| quote!(, #rt::Given));
         quote!(#rt::PhasePoint<#n, #frame, #centre, #scalar #basis>)
     }
 
@@ -144,7 +144,7 @@ impl Context<'_> {
     /// A program over a number, whose inputs are variables of the same name.
     pub(super) fn written(&self, program: &Program, number: Number) -> Body {
         let input = |symbol: &Symbol| named(symbol);
-        let rebased = self.model.prepared.metrics.is_some();
+        let rebased = self.model.metrics.is_some();
         let places: Vec<Span> = self.spec.customs.iter().map(place).collect();
         body(program, &Scope { number, input: &input, rebased, places: &places, rt: &self.names.rt })
     }
@@ -222,7 +222,7 @@ impl Context<'_> {
 
     /// Do the bases of equations follow from fields?
     pub(super) fn has_prepared_bases(&self) -> bool {
-        matches!(self.model.prepared.metrics, Some(ChangeOfBases::Prepared(_)))
+        matches!(self.model.metrics, Some(ChangeOfBases::Prepared))
     }
 
     /// The change of bases for the fields that a program calls.
@@ -239,7 +239,7 @@ impl Context<'_> {
             Number::Double => quote!(#rt::f64),
         };
         let bases = self.bases(Some(&scalar), coefficients);
-        (calls && self.model.prepared.metrics.is_some()).then(|| quote!(let change = &#bases;))
+        (calls && self.model.metrics.is_some()).then(|| quote!(let change = &#bases;))
     }
 
     /// Puts `point`, a reference, in orthonormal bases.
@@ -262,7 +262,7 @@ impl Context<'_> {
         coefficients: Coefficients,
     ) -> TokenStream {
         let (rt, bases) = (&self.names.rt, self.bases(Some(scalar), coefficients));
-        match self.model.prepared.metrics {
+        match self.model.metrics {
             Some(_) => quote!(#rt::Phase::from_orthonormal(&#point, &#bases)),
             None => point,
         }
@@ -270,7 +270,7 @@ impl Context<'_> {
 
     /// Statements for a model with metrics.
     pub(super) fn with_metrics(&self, statements: TokenStream) -> TokenStream {
-        if self.model.prepared.metrics.is_some() { statements } else { TokenStream::new() }
+        if self.model.metrics.is_some() { statements } else { TokenStream::new() }
     }
 }
 

@@ -61,7 +61,7 @@ fn velocity(context: &Context) -> TokenStream {
     let inward = context.inward(Coefficients::Given);
     let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
     let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
-    let velocity = match context.model.prepared.metrics {
+    let velocity = match context.model.metrics {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
@@ -125,8 +125,8 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
     });
-    let phi_inward = (reads_phi && context.model.prepared.metrics.is_some())
-        .then(|| quote!(let phi = &#bases.placement(phi);));
+    let phi_inward =
+        (reads_phi && context.model.metrics.is_some()).then(|| quote!(let phi = &#bases.placement(phi);));
     let inward = quote!(#inward #phi_inward);
     quote! {
         fn #name<#t: #rt::Real>(

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::{ChangeOfBases, Components, GivenMatrix, GivenSource, Preparation};
+use crate::derive::{ChangeOfBases, Components, GivenMatrix, GivenSource, Step};
 
 use super::body::Body;
 use super::context::Context;
@@ -21,9 +21,9 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
             }
         }
     };
-    let bases = match &context.model.prepared.metrics {
+    let bases = match &context.model.metrics {
         None => return (TokenStream::new(), TokenStream::new()),
-        Some(ChangeOfBases::Prepared(_)) => {
+        Some(ChangeOfBases::Prepared) => {
             return (TokenStream::new(), method(quote!(#rt::bases_beside(&self.coefficients))));
         }
         Some(ChangeOfBases::Known(bases)) => bases,
@@ -60,7 +60,7 @@ pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
 /// What linters would say of the expansion, where the user cannot mend it: differences in lists seem to lack a comma where the
 /// attribute has several lines, and roots of numbers, in bases that are known, may be near to constants.
 pub(super) fn lints(context: &Context) -> TokenStream {
-    match context.model.prepared.metrics {
+    match context.model.metrics {
         Some(ChangeOfBases::Known(_)) => {
             quote!(#[allow(clippy::possible_missing_comma, clippy::approx_constant)])
         }
@@ -68,13 +68,8 @@ pub(super) fn lints(context: &Context) -> TokenStream {
     }
 }
 
-/// The statement that finds the bases from the fields.
-pub(super) fn prepared(context: &Context) -> Option<TokenStream> {
-    let Some(ChangeOfBases::Prepared(Preparation { metrics: [space, body], .. })) =
-        &context.model.prepared.metrics
-    else {
-        return None;
-    };
+/// The statement that finds the bases from the entries of `g` and `eta`.
+pub(super) fn found(context: &Context, [space, body]: &[Program; 2]) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let orthonormal = |name: &str, program: &Program| {
         let Body { lets, results } = over_fields(context.names, program);
@@ -84,37 +79,31 @@ pub(super) fn prepared(context: &Context) -> Option<TokenStream> {
         if lets.is_empty() { bases } else { quote!({ #lets #bases }) }
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
-    Some(quote!(let bases = #rt::Bases::of_factors(#space, #body);))
+    quote!(let bases = #rt::Bases::of_factors(#space, #body);)
 }
 
-/// The statements that carry inertias and tensors to the bases, which are found before.
-pub(super) fn rebased(context: &Context) -> TokenStream {
-    let Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) = &context.model.prepared.metrics else {
-        return TokenStream::new();
-    };
+/// The statement that carries an inertia or a tensor to the bases, which are found before.
+pub(super) fn rebased(context: &Context, matrix: &GivenMatrix) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
-    let statement = |matrix: &GivenMatrix| {
-        let local = matrix_name(matrix.number);
-        let (entries, components, tensor) = match &matrix.source {
-            GivenSource::Form { entries, components, tensor } => (entries, *components, *tensor),
-            GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
-            GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
-        };
-        let Body { lets, results } = over_fields(context.names, entries);
-        let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
-        let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
-        let entries = quote!([#(#rows),*]);
-        let value = match (tensor, components) {
-            (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
-            (false, _) => quote!(#rt::rebased_inertia::<#n, _>(&bases.body, #entries)),
-            (true, components) => {
-                let (factors, size) = (factors(components), number(size));
-                quote!(#rt::rebased_tensor::<#n, #size, _>(#factors, #entries))
-            }
-        };
-        quote!(let #local = { #lets #value };)
+    let local = matrix_name(matrix.number);
+    let (entries, components, tensor) = match &matrix.source {
+        GivenSource::Form { entries, components, tensor } => (entries, *components, *tensor),
+        GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
+        GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
     };
-    matrices.iter().map(statement).collect()
+    let Body { lets, results } = over_fields(context.names, entries);
+    let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
+    let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
+    let entries = quote!([#(#rows),*]);
+    let value = match (tensor, components) {
+        (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
+        (false, _) => quote!(#rt::rebased_inertia::<#n, _>(&bases.body, #entries)),
+        (true, components) => {
+            let (factors, size) = (factors(components), number(size));
+            quote!(#rt::rebased_tensor::<#n, #size, _>(#factors, #entries))
+        }
+    };
+    quote!(let #local = { #lets #value };)
 }
 
 /// `L` and `R` of `O = L O' R`, from an affine velocity in orthonormal bases to one in the user's.
@@ -129,11 +118,12 @@ fn factors(components: Components) -> TokenStream {
 /// A result whose error has a velocity in orthonormal bases that it found before.
 pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    match &context.model.prepared.metrics {
-        Some(ChangeOfBases::Prepared(Preparation { matrices, .. })) if !matrices.is_empty() => {
+    let is_carried = |step: &Step| matches!(step, Step::Rebased(_));
+    match context.model.prepared.steps.iter().any(is_carried) {
+        true => {
             let factors = factors(context.model.spin());
             quote!(#rt::told_in_given_bases(#factors, #result))
         }
-        _ => result,
+        false => result,
     }
 }

@@ -6,6 +6,7 @@ mod values;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::derive::{ChangeOfBases, Step};
 use crate::spec::Field;
 
 use super::body::Body;
@@ -13,7 +14,7 @@ use super::context::Context;
 use super::fields::{number_name, over_fields};
 use super::metrics;
 use super::number::number;
-use conditions::{conditions, damping, numeric_block, principal};
+use conditions::{inverse, principal, semidefinite, semidefinite_form, well_posed};
 use values::{finite_fields, matrices, numbers, of_fields, size, values};
 
 /// What `prepare()` returns; nothing for a model without fields in its coefficients.
@@ -115,23 +116,14 @@ fn coefficients(context: &Context) -> TokenStream {
     let rest = context.spec.matrix_fields().next().is_some().then(|| quote!(, ..));
     let bound = (!bound.is_empty()).then(|| quote!(let [#(#bound),* #rest] = *values;));
     let (finite, matrices) = (finite_fields(context), matrices(context));
-    let conditions = conditions(context);
-    let bases = metrics::prepared(context);
-    let rebased = metrics::rebased(context);
-    let blocks: TokenStream =
-        context.model.prepared.numeric_blocks.iter().map(|block| numeric_block(context, block)).collect();
-    let axes = context.model.methods.splitting.iter().flat_map(|split| &split.principal);
-    let axes: TokenStream = axes.map(|form| principal(names, form)).collect();
-    let damping = damping(&context.model.prepared.damping, names);
-    // What is carried to orthonormal bases is looked at in them.
-    let (first, last) = if rebased.is_empty() { (None, bases.as_ref()) } else { (bases.as_ref(), None) };
+    let steps: TokenStream = context.model.prepared.steps.iter().map(|one| step(context, one)).collect();
     let Body { lets, results } = over_fields(names, &context.model.prepared.coefficients);
-    let all = match &bases {
-        Some(_) => quote! {
+    let all = match context.model.metrics {
+        Some(ChangeOfBases::Prepared) => quote! {
             let coefficients = #rt::finite([#(#results),*])?;
             ::core::result::Result::Ok(#rt::beside_bases(coefficients, &bases))
         },
-        None => quote!(#rt::finite([#(#results),*])),
+        _ => quote!(#rt::finite([#(#results),*])),
     };
     quote! {
         /// The coefficients of the equations, from values of the fields.
@@ -139,16 +131,22 @@ fn coefficients(context: &Context) -> TokenStream {
             #bound
             #finite
             #matrices
-            #first
-            #rebased
-            #conditions
-            #blocks
-            #axes
-            #damping
-            #last
+            #steps
             #lets
             #all
         }
+    }
+}
+
+fn step(context: &Context, step: &Step) -> TokenStream {
+    match step {
+        Step::Bases(entries) => metrics::found(context, entries),
+        Step::Rebased(matrix) => metrics::rebased(context, matrix),
+        Step::WellPosed(conditions) => well_posed(context.names, conditions),
+        Step::Inverse(block) => inverse(context, block),
+        Step::PrincipalAxes(form) => principal(context.names, form),
+        Step::Semidefinite(conditions) => semidefinite(context.names, conditions),
+        Step::SemidefiniteForm(block) => semidefinite_form(context.names, block),
     }
 }
 

@@ -41,7 +41,7 @@ fn metric(context: &Context) -> TokenStream {
         let rows = results.chunks(metric.size).map(|row| quote!([#(#row),*]));
         let reads = !placement.is_empty();
         let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix([#(#rows),*])));
-        if context.model.prepared.metrics.is_some() {
+        if context.model.metrics.is_some() {
             let carried = format_ident!("{carried}");
             inward = if reads { quote!(let phi = &#bases.placement(phi);) } else { TokenStream::new() };
             form = quote!(#rt::#carried::<#n, #size>(&#bases, #form));
@@ -79,7 +79,7 @@ fn acceleration(context: &Context) -> TokenStream {
     let inward = if bound.is_empty() { TokenStream::new() } else { context.inward(Coefficients::Own) };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
-    let acceleration = match context.model.prepared.metrics {
+    let acceleration = match context.model.metrics {
         Some(_) => quote!(#bases.space_inverse * #acceleration),
         None => acceleration,
     };

@@ -12,7 +12,7 @@ use super::reduction::{equations, rest, turned};
 /// The coefficients of the prepared model, numeric blocks inverted by the oracle.
 pub(crate) fn prepared(model: &Model, fields: &Values) -> Values {
     let mut inputs = fields.clone();
-    for NumericBlock { program, inverse, size, .. } in &model.prepared.numeric_blocks {
+    for NumericBlock { program, inverse, size, .. } in model.prepared.inverted() {
         let values = run(program, fields);
         let places: Vec<(usize, usize)> = (0..*size).flat_map(|i| (i..*size).map(move |j| (i, j))).collect();
         let entry = |i: usize, j: usize| {
@@ -84,8 +84,8 @@ fn inertia_with_fields() {
         let j = Matrix::from_rationals(n, n, &entries);
         let args = format!("dim = {n}, kinetic(dalembert = {text}, space_translation = m)");
         let model = derived(&args, "struct Model { i: f64, a: f64, m: f64 }");
-        assert_eq!(model.prepared.numeric_blocks.len(), 1, "one block for all rows");
-        assert!(model.prepared.numeric_blocks[0].positive);
+        let positive: Vec<bool> = model.prepared.inverted().map(|block| block.positive).collect();
+        assert_eq!(positive, [true], "one block for all rows");
         let terms = vec![Term::DAlembert(j), Term::SpaceTranslation(rational(2, 3))];
         let kinetic = Kinetic::new(n, terms).unwrap();
         let fields = [("self.i", rational(1, 1)), ("self.a", rational(1, 1)), ("self.m", rational(2, 3))];
@@ -116,7 +116,7 @@ fn conditions_of_prepare() {
                     expected.push(("m", sample.m.clone()));
                 }
                 let mut found: Vec<(&str, _)> = Vec::new();
-                for condition in &model.prepared.conditions {
+                for condition in model.prepared.conditions() {
                     let values = run(&condition.program, &fields);
                     let sizes = values.iter().filter(|(name, _)| *name != "value_1");
                     let sum = sizes.fold(Rational::ZERO, |sum, (_, value)| &sum + value);

@@ -118,7 +118,7 @@ fn velocities_of_diagonal_inertias() {
             for _ in 0..4 {
                 let energy = Anisotropic::random(&mut random, n);
                 let model = derived(&energy.args(key), "struct Model;");
-                assert!(model.prepared.numeric_blocks.is_empty());
+                assert_eq!(model.prepared.inverted().count(), 0);
                 inverts(&mut random, &energy, &model, &Values::new());
             }
         }
@@ -135,11 +135,10 @@ fn velocities_of_diagonal_inertias_with_fields() {
             let inertia = if n == 2 { "diag(j1, j2)" } else { "diag(j1, j2, j3)" };
             let args = format!("dim = {n}, kinetic({key} = {inertia}, casimir2 = a, casimir1_squared = b)");
             let model = derived(&args, "struct Model { j1: f64, j2: f64, j3: f64, a: f64, b: f64 }");
-            let mut sizes: Vec<usize> =
-                model.prepared.numeric_blocks.iter().map(|block| block.size).collect();
+            let mut sizes: Vec<usize> = model.prepared.inverted().map(|block| block.size).collect();
             sizes.sort_unstable();
             assert_eq!(sizes, if n == 2 { vec![2, 2] } else { vec![2, 2, 2, 3] });
-            assert!(model.prepared.numeric_blocks.iter().all(|block| !block.positive));
+            assert!(model.prepared.inverted().all(|block| !block.positive));
             let mut fields: Values =
                 [("self.a".to_owned(), own(&energy.a)), ("self.b".to_owned(), own(&energy.b))].into();
             let inertias = energy.j.iter().enumerate();
@@ -248,7 +247,7 @@ fn inertias_have_the_programs_of_their_tensors() {
             }
             let sample = Sample::new(&mut random, n, internal, Translation::None);
             assert_eq!(
-                sample.derived().prepared.numeric_blocks.len(),
+                sample.derived().prepared.inverted().count(),
                 0,
                 "numbers are inverted when the model is compiled"
             );
@@ -273,10 +272,7 @@ fn flat_tensors_may_be_indefinite() {
             indefinite += usize::from(sample.is_indefinite());
             // The mass is that of the masses of `dalembert`.
             let positive = internal == Internal::FlatSum;
-            assert!(
-                model.prepared.conditions.iter().all(|condition| condition.positive == positive),
-                "{args}"
-            );
+            assert!(model.prepared.conditions().all(|condition| condition.positive == positive), "{args}");
         }
     }
     assert!(indefinite >= 3);
@@ -290,8 +286,8 @@ fn masses_beside_a_flat_tensor() {
         &format!("dim = 2, kinetic({tensor}, dalembert = [[i, a], [a, 3]])"),
         "struct Model { i: f64, a: f64 }",
     );
-    assert!(model.prepared.numeric_blocks.iter().all(|block| !block.positive));
-    let minors: Vec<_> = model.prepared.conditions.iter().filter(|condition| condition.positive).collect();
+    assert!(model.prepared.inverted().all(|block| !block.positive));
+    let minors: Vec<_> = model.prepared.conditions().filter(|condition| condition.positive).collect();
     let fields: Values =
         [("self.i".to_owned(), own(&rational(5, 1))), ("self.a".to_owned(), own(&rational(2, 1)))].into();
     let values: Vec<Rational> =

@@ -86,9 +86,7 @@ fn velocities_beside_random_metrics() {
                 let kinetic = Kinetic::new(n, terms).unwrap();
                 let state = random.state(n).at_rest();
                 let phi_dot = kinetic.velocity(&state).unwrap().1;
-                let Some(ChangeOfBases::Known(bases)) = &model.prepared.metrics else {
-                    panic!("metrics are known")
-                };
+                let Some(ChangeOfBases::Known(bases)) = &model.metrics else { panic!("metrics are known") };
                 let (a, b) = (&bases.space, &bases.body);
                 let inverse = state.phi.inverse().unwrap();
                 // Momentum and velocity in the frame of the energy, and the factors that carry each.

@@ -157,7 +157,7 @@ pub fn skew_exponential<const N: usize, T: Real>(skew: &Matrix<N, T>) -> Matrix<
 
 /// `[[cos w, -sin w], [sin w, cos w]]`.
 fn rotation_in_plane<const N: usize, T: Real>(angle: T) -> Matrix<N, T> {
-    let (sine, cosine) = (angle.sin(), angle.cos());
+    let (sine, cosine) = angle.sin_cos();
     let mut rotation = Matrix::<N, T>::from_diagonal_element(cosine);
     rotation[(1, 0)] = sine;
     rotation[(0, 1)] = -sine;
@@ -173,8 +173,9 @@ fn rotation_in_space<const N: usize, T: Real>(skew: &Matrix<N, T>) -> Matrix<N, 
         return Matrix::<N, T>::identity();
     }
     let axis = vector.map(|component| component / angle);
-    let half = (angle * T::from_f64(0.5)).sin();
-    let (sine, versine) = (angle.sin(), T::from_f64(2.0) * half * half);
+    let (half_sine, half_cosine) = (angle * T::from_f64(0.5)).sin_cos();
+    let twice = half_sine + half_sine;
+    let (sine, versine) = (twice * half_cosine, twice * half_sine);
     let mut rotation = Matrix::<N, T>::identity();
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         rotation[(i, i)] -= versine * (axis[j] * axis[j] + axis[k] * axis[k]);

@@ -15,7 +15,7 @@ fn square_root(x: f64) -> f64 {
 }
 
 macro_rules! primitive {
-    ($type:ty, $hypot:path, $($function:ident = $path:path),* $(; $of_doubles:item)?) => {
+    ($type:ty, $hypot:path, $sin_cos:path, $($function:ident = $path:path),* $(; $of_doubles:item)?) => {
         impl Scalar for $type {
             $($of_doubles)?
 
@@ -31,6 +31,11 @@ macro_rules! primitive {
                 return self.mul_add(factor, term);
                 #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
                 return self * factor + term;
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
             }
 
             #[inline(always)]
@@ -77,6 +82,7 @@ macro_rules! primitive {
 primitive!(
     f64,
     libm::hypot,
+    libm::sincos,
     sqrt = square_root,
     cbrt = libm::cbrt,
     inverse_cbrt = inverse_cbrt::inverse_cbrt,
@@ -100,6 +106,7 @@ primitive!(
 primitive!(
     f32,
     libm::hypotf,
+    libm::sincosf,
     sqrt = libm::sqrtf,
     cbrt = libm::cbrtf,
     exp = libm::expf,
@@ -118,7 +125,17 @@ primitive!(
 
 #[cfg(test)]
 mod tests {
-    use super::Real;
+    use super::{Real, Scalar};
+
+    #[test]
+    fn sines_and_cosines_are_what_they_are_alone() {
+        for k in -20_000..20_000 {
+            let x = f64::from(k) * 10.0_f64.powi(k % 40 - 30);
+            assert_eq!(Scalar::sin_cos(x), (libm::sin(x), libm::cos(x)), "{x}");
+            let x = x as f32;
+            assert_eq!(Scalar::sin_cos(x), (libm::sinf(x), libm::cosf(x)), "{x}");
+        }
+    }
 
     #[test]
     fn hypotenuses_of_any_size() {

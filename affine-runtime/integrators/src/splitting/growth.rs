@@ -173,7 +173,7 @@ pub fn turning<T: Real>(x: T, k: T) -> (T, T) {
         let fall = rise / (T::one() + rise);
         (T::from_f64(0.5) * (rise + fall), T::one() + T::from_f64(0.5) * (rise - fall))
     } else {
-        (half.sin(), half.cos())
+        half.sin_cos()
     };
     let unit = (sine + sine) / root;
     (unit * cosine, T::from_f64(0.5) * unit * unit)

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::derive::splitting::PrincipalProgram;
-use crate::derive::{Condition, Damping, Factor, NumericBlock, Relation};
+use crate::derive::{Condition, NumericBlock, Relation};
 use crate::emit::body::Body;
 use crate::emit::context::Context;
 use crate::emit::fields::over_fields;
@@ -13,20 +13,10 @@ use crate::emit::names::Names;
 use crate::emit::number::{double, number};
 use crate::emit::pattern::{identifiers, table};
 
-/// Eigenvalues share one threshold, a mass has its own.
-pub(super) fn conditions(context: &Context) -> TokenStream {
-    let (names, rt) = (context.names, &context.names.rt);
-    let is_mass = |c: &&Condition| matches!(c.factor, Factor::Mass(_));
-    let list = |conditions: Vec<&Condition>| {
-        if conditions.is_empty() {
-            return TokenStream::new();
-        }
-        let entries = conditions.iter().map(|c| condition(c, names));
-        quote!(#rt::well_posed(&[#(#entries),*])?;)
-    };
-    let eigenvalues = list(context.model.prepared.conditions.iter().filter(|c| !is_mass(c)).collect());
-    let masses = list(context.model.prepared.conditions.iter().filter(is_mass).collect());
-    quote!(#eigenvalues #masses)
+/// What must not vanish.
+pub(super) fn well_posed(names: &Names, conditions: &[Condition]) -> TokenStream {
+    let (rt, entries) = (&names.rt, conditions.iter().map(|one| condition(one, names)));
+    quote!(#rt::well_posed(&[#(#entries),*])?;)
 }
 
 fn condition(condition: &Condition, names: &Names) -> TokenStream {
@@ -50,35 +40,34 @@ fn condition(condition: &Condition, names: &Names) -> TokenStream {
 }
 
 /// What the dissipation must not be: negative.
-pub(super) fn damping(damping: &Damping, names: &Names) -> TokenStream {
+pub(super) fn semidefinite(names: &Names, conditions: &[Condition]) -> TokenStream {
     let rt = &names.rt;
-    let entries: Vec<TokenStream> = damping
-        .conditions
-        .iter()
-        .map(|condition| {
-            let text = format!("{} >= 0", condition.factor.name());
-            let reason = format!(
-                "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
-                 forces would feed energy in",
-                condition.directions, condition.factor.name(),
-            );
-            held(condition, &text, &reason, names)
-        })
-        .collect();
-    let conditions = (!entries.is_empty()).then(|| quote!(#rt::semidefinite(&[#(#entries),*])?;));
-    let blocks = damping.blocks.iter().map(|block| {
-        let Body { lets, results } = over_fields(names, &block.program);
-        let (size, count) = (block.size, block.size * (block.size + 1) / 2);
-        let (entries, terms) = results.split_at(count);
-        let (size, count) = (number(size), number(count));
-        quote! {
-            {
-                #lets
-                #rt::semidefinite_form::<#size, #count, _>([#(#entries),*], #rt::total_size([#(#terms),*]))?;
-            }
-        }
+    let entries = conditions.iter().map(|condition| {
+        let text = format!("{} >= 0", condition.factor.name());
+        let reason = format!(
+            "on {} the dissipation function R is half of {} times the square of the velocity; where R < 0 its \
+             forces would feed energy in",
+            condition.directions,
+            condition.factor.name(),
+        );
+        held(condition, &text, &reason, names)
     });
-    quote!(#conditions #(#blocks)*)
+    quote!(#rt::semidefinite(&[#(#entries),*])?;)
+}
+
+/// The same of a block whose eigenvalues numbers give.
+pub(super) fn semidefinite_form(names: &Names, block: &NumericBlock) -> TokenStream {
+    let rt = &names.rt;
+    let Body { lets, results } = over_fields(names, &block.program);
+    let (size, count) = (block.size, block.size * (block.size + 1) / 2);
+    let (entries, terms) = results.split_at(count);
+    let (size, count) = (number(size), number(count));
+    quote! {
+        {
+            #lets
+            #rt::semidefinite_form::<#size, #count, _>([#(#entries),*], #rt::total_size([#(#terms),*]))?;
+        }
+    }
 }
 
 /// A condition with the program of its value and of the sizes that rounding errors are measured by.
@@ -101,10 +90,11 @@ fn held(condition: &Condition, text: &str, reason: &str, names: &Names) -> Token
     }
 }
 
-pub(super) fn numeric_block(context: &Context, block: &NumericBlock) -> TokenStream {
+/// An inverse block.
+pub(super) fn inverse(context: &Context, block: &NumericBlock) -> TokenStream {
     let (names, rt, t) = (context.names, &context.names.rt, &context.names.scalar);
     let Body { lets, results } = over_fields(names, &block.program);
-    let inverse = identifiers(&block.inverse);
+    let names_of_entries = identifiers(&block.inverse);
     let (dim, size, positive) = (context.dim(), number(block.size), block.positive);
     let count = number(block.inverse.len());
     let (entries, terms) = results.split_at(block.inverse.len());
@@ -125,7 +115,7 @@ pub(super) fn numeric_block(context: &Context, block: &NumericBlock) -> TokenStr
     };
     let inverted = metrics::told_in_given_bases(context, inverted);
     quote! {
-        let [#(#inverse),*]: [#t; #count] = {
+        let [#(#names_of_entries),*]: [#t; #count] = {
             #lets
             #inverted?
         };
