@@ -17,6 +17,7 @@ mod csv;
 mod cubic;
 mod dense;
 mod departure;
+mod distortion;
 mod domain;
 mod ensemble;
 mod event;

@@ -2,7 +2,7 @@
 
 use affine_runtime::analysis::{
     AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
-    branch_diagram,
+    branch_diagram, lyapunov_spectrum,
 };
 use affine_runtime::force::{Force, Motion};
 use affine_runtime::frames::Body as OnBody;
@@ -159,4 +159,29 @@ fn a_field_is_a_parameter() {
     let grows =
         |point: &BranchPoint<2, _>| matches!(point.stability.verdict, StabilityVerdict::Unstable { .. });
     assert!(!grows(&branch.points[0]) && grows(branch.points.last().unwrap()));
+}
+
+#[test]
+fn steps_and_starts_that_lead_nowhere_are_refused() {
+    let rest = Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare().unwrap();
+    let start = rest.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+    let family = |spin: f64| {
+        Ok((Disc { i: 1.0, kappa: 4.0, c1: 0.05 }.prepare()?, vec![Condition::MomentumMap(0, spin)]))
+    };
+    for (range, step) in [
+        ((0.0, 1.0), f64::NAN),
+        ((0.0, 1.0), f64::INFINITY),
+        ((0.0, 1.0), 0.0),
+        ((0.0, 1.0), -0.1),
+        ((1.0, 0.0), 0.1),
+        ((0.5, 1.0), 0.1),
+        ((0.0, f64::NAN), 0.1),
+    ] {
+        let refused = Continuation::new(&[Generator::rotation(1, 2)], range, step, family).run(&start, 0.1);
+        assert!(matches!(refused, Err(AnalysisError::Range { .. })), "{range:?} {step}");
+    }
+    for time in [0.0, f64::NAN, f64::INFINITY] {
+        let refused = lyapunov_spectrum(&rest, &start, time, 1e-9);
+        assert!(matches!(refused, Err(AnalysisError::Time(_))), "{time}");
+    }
 }

@@ -147,6 +147,10 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         guess: &M::Point<f64>,
         start: f64,
     ) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
+        let ((low, high), step) = (self.range, self.step);
+        if !(step > 0.0 && step.is_finite() && low <= start && start <= high) {
+            return Err(AnalysisError::Range { step, low, high, start });
+        }
         let (model, conditions) = (self.family)(start)?;
         let turn = relative_equilibrium(&model, guess, &self.generators, &conditions)?;
         let z = vector(&model.flatten(&turn.point));

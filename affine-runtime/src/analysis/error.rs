@@ -34,6 +34,19 @@ pub enum AnalysisError {
         /// As many as velocities are left open by the conditions, and one along a branch.
         expected: usize,
     },
+    /// A branch is followed in steps of positive length, from a parameter within its range.
+    Range {
+        /// The longest step.
+        step: f64,
+        /// The least parameter.
+        low: f64,
+        /// The largest parameter.
+        high: f64,
+        /// The parameter at the start.
+        start: f64,
+    },
+    /// A Lyapunov spectrum is that of a time, forward or backward, which is a number and not zero.
+    Time(f64),
     /// Steps along a branch have become too short.
     StepUnderflow {
         /// Length of the last one.
@@ -59,6 +72,12 @@ impl fmt::Display for AnalysisError {
             Self::Degenerate { kernel, expected } => {
                 write!(f, "solutions go on in {kernel} directions where {expected} are expected")
             }
+            Self::Range { step, low, high, start } => write!(
+                f,
+                "steps of {step:e} from {start} within {low} to {high}: give a step that is a positive number, and a start within \
+                 the range"
+            ),
+            Self::Time(time) => write!(f, "a time of {time:e}: give a number that is not zero"),
             Self::StepUnderflow { step } => write!(f, "steps along the branch are too short: {step:e}"),
             Self::NoDecomposition => write!(f, "eigenvalues were not found"),
             Self::Model(error) => error.fmt(f),

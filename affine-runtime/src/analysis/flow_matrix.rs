@@ -244,13 +244,16 @@ pub struct LyapunovSpectrum {
 /// (1980) 9). On motions that are not bounded it depends on the layout, see [`Description::full`](crate::model::Description::full).
 ///
 /// # Errors
-/// [`AnalysisError::Integration`].
+/// [`AnalysisError::Time`], [`AnalysisError::Integration`].
 pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     model: &M,
     start: &M::Point<f64>,
     time: f64,
     tolerance: f64,
 ) -> Result<LyapunovSpectrum, AnalysisError> {
+    if time == 0.0 || !time.is_finite() {
+        return Err(AnalysisError::Time(time));
+    }
     let mut flow = FlowMatrix::new(model, (0.0, start), tolerance);
     let basis = kernel(&normals(model, &flow.start), RANK);
     // Of no special directions, in which growth would be less.

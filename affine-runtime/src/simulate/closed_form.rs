@@ -2,8 +2,10 @@
 
 use super::collapse::rate_of_determinant;
 use super::course::Course;
+use super::distortion::told;
 use super::mechanics::Mechanics;
 use super::method::Method;
+use super::point::check;
 use super::recorder::Recorder;
 use super::watcher::{At, Sampling, WITHIN_A_STEP};
 use crate::error::Reason;
@@ -64,8 +66,18 @@ impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
         }
     }
 
+    /// The phase point at a time up to a collapse.
+    pub(super) fn reached(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<P, Reason> {
+        self.stands(model, t)?;
+        let point = self.at(model, t);
+        match check(t, &point) {
+            Err(Reason::Placement { determinant, .. }) => Err(Reason::Distortion { determinant, t }),
+            checked => checked.map(|()| point),
+        }
+    }
+
     /// Refuses a time behind a collapse.
-    pub(super) fn stands(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<(), Reason> {
+    fn stands(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<(), Reason> {
         match self.collapse {
             Some(end) if self.is_behind(t, end) => {
                 let determinant = LogDeterminant::of(self.at(model, t).phi()).to_f64();
@@ -97,23 +109,27 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         loop {
             let due = self.schedule.peek();
             let until = due.unwrap_or(t_end);
-            let until = last_event.filter(|last| motion.is_behind(until, *last)).unwrap_or(until);
+            let until = match (collapse, last_event) {
+                (Some(end), Some(last)) if motion.is_behind(until, end) => last,
+                _ => until,
+            };
             motion.resolved(until)?;
-            if self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)))? {
+            let met = self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)));
+            if met.map_err(|reason| told(reason, at(until).phi()))? {
                 return Ok(());
             }
             let Some(t) = due else { break };
-            motion.stands(model, t)?;
+            let point = motion.reached(model, t)?;
             // An event at that very time has it recorded already.
             if self.schedule.take_through(t, self.backward).is_some() {
-                self.record(t, (at(t), 0.0))?;
+                self.record(t, (point, 0.0))?;
             }
             self.steps += 1;
             self.passed(vec![t.to_bits()]);
             self.report(t)?;
         }
-        motion.stands(model, t_end)?;
-        self.reach(t_end, (at(t_end), 0.0))
+        let end = motion.reached(model, t_end)?;
+        self.reach(t_end, (end, 0.0))
     }
 
     /// The events on the way from one output to the next, in stretches of a few samples each, after which the run may be

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::distortion::tells;
 use crate::decompose::LinearMap;
 use crate::error::Result;
 use crate::frames::Matrix;
@@ -147,10 +148,13 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     }
 
     /// `det phi = value`, in orthonormal bases of the model's metrics. With the value 0 the collapse of a body that no potential protects: a run that stops there ends
-    /// at a phase point without inverse.
+    /// at a phase point without inverse. Where rounding may make a tenth of the value of `det phi`, the run ends,
+    /// [`Reason::Distortion`](super::Reason::Distortion).
     #[must_use]
     pub fn determinant(value: f64) -> Self {
-        Self::of_placement("det phi", move |phi| LogDeterminant::of(phi).to_f64() - value)
+        Self::of_placement("det phi", move |phi| {
+            if tells(phi, value) { LogDeterminant::of(phi).to_f64() - value } else { f64::NAN }
+        })
     }
 
     /// `max_a Q_a = value`, by logarithms, with the model's metrics.

@@ -2,6 +2,7 @@
 //! potential a value.
 
 use super::collapse::{failing, first_failure, rate_of_determinant};
+use super::distortion::told;
 use super::domain::Domain;
 use super::failed::failed;
 use super::mechanics::Mechanics;
@@ -109,14 +110,14 @@ pub(super) fn collapse<const N: usize, P: Phase<N>>(motion: &mut dyn Motion<P>, 
     first_failure(good, t, |t| motion.between(t).is_ok_and(|(point, _)| check(t, &point).is_ok()))
 }
 
-/// The reason with what is known of a collapse after the last good point.
+/// The reason with what is known of a collapse after the last good point, or of placements that doubles do not tell.
 pub(super) fn explained<const N: usize, P: Phase<N>>(
     model: &dyn Mechanics<N, P>,
     motion: &mut dyn Motion<P>,
     (good, point): (f64, &P),
     reason: Reason,
 ) -> Reason {
-    match reason {
+    match told(reason, point.phi()) {
         Reason::Placement { determinant, rate: None, t } => {
             let rate = Some(rate_of_determinant(model, point));
             Reason::Placement { determinant, rate, t: collapse(motion, good, t) }

@@ -196,8 +196,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 self.watcher.happened(&met);
                 // Those before had happened when the run was interrupted.
                 if count > self.place.met {
-                    self.record_through(met.t, at)?;
-                    self.happen(count, &met)?;
+                    let is_recorded = self.record_before(&met, at)?;
+                    self.happen(count, &met, is_recorded)?;
                 }
                 if self.turn.is_some() {
                     return Ok(true);
@@ -213,8 +213,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         Ok(false)
     }
 
+    /// The outputs up to an event; whether the last of them is at its time. Where a collapse ends the run, there is none of it.
+    fn record_before(&mut self, met: &Met<P>, at: &mut At<'_, P>) -> Result<bool, Reason> {
+        match (self.record_through(met.t, at), &self.watcher.events[met.event].action) {
+            (Err(Reason::Placement { .. }), Action::Stop) => Ok(false),
+            (recorded, _) => recorded.map(|last| last == Some(met.t)),
+        }
+    }
+
     /// An event that is the `count`th of its step happens. A change is not done with before the point is recorded.
-    fn happen(&mut self, count: usize, met: &Met<P>) -> Result<(), Reason> {
+    fn happen(&mut self, count: usize, met: &Met<P>, is_recorded: bool) -> Result<(), Reason> {
         let Met { t, point, work, to, .. } = *met;
         let event = &self.watcher.events[met.event];
         let name = event.name;
@@ -236,7 +244,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 // A collapse is a placement without inverse, and may be the event.
                 self.trajectory.end = (t, point);
                 self.trajectory.energies.work_at_end = self.place.work() + work;
-                match self.schedule.ends_with_output() {
+                match self.schedule.ends_with_output() && !is_recorded {
                     true => self.push(&Energy::at(self.model, t, &point)),
                     false => Ok(()),
                 }
@@ -266,12 +274,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
     }
 
-    /// Records the outputs that are due up to a time.
-    pub(super) fn record_through(&mut self, t: f64, at: &mut At<'_, P>) -> Result<(), Reason> {
+    /// Records the outputs that are due up to a time; that of the last one.
+    pub(super) fn record_through(&mut self, t: f64, at: &mut At<'_, P>) -> Result<Option<f64>, Reason> {
+        let mut last = None;
         while let Some(due) = self.schedule.take_through(t, self.backward) {
             self.record(due, at(due)?)?;
+            last = Some(due);
         }
-        Ok(())
+        Ok(last)
     }
 
     /// Records the end of a step, once.

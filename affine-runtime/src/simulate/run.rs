@@ -3,6 +3,7 @@
 use super::checkpoint::{Checkpoint, Place};
 use super::course::{Choice, Course};
 use super::dense::Dense;
+use super::distortion::distinctness;
 use super::fingerprint::fingerprint;
 use super::layout::total;
 use super::mechanics::Mechanics;
@@ -76,6 +77,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             (Some(t), Some(energy)) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
             _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
         };
+        trajectory.computation.distinctness = distinctness(trajectory.end.1.phi());
         match outcome {
             Ok(()) => Ok(trajectory),
             Err(reason) => {
@@ -286,6 +288,7 @@ pub(super) fn empty_trajectory<const N: usize, P: Phase<N>>(
             energy_defect: 0.0,
             unresolved_power: 0.0,
             turns: None,
+            distinctness: 1.0,
         },
     }
 }

@@ -21,7 +21,7 @@ use crate::state::Phase;
 const ENDED: &str = "state ended";
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
-    /// Runs the simulation and writes its outputs into a folder as they come: a file for each `chunk` of them, with the columns of
+    /// Runs the simulation and writes its outputs into a folder as they come: a file for each `chunk` of them, at least one, with the columns of
     /// [`Trajectory::table`] and what `about` notes of the table as a whole, a file of its events, [`Trajectory::events_csv`], where there are some, and `manifest.txt`, which
     /// names these files, and has the state from which the run goes on after each. Memory holds one chunk.
     ///

@@ -155,8 +155,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
             }
             (Way::ClosedForm(motion, t), _) => {
                 motion.resolved(t_end)?;
-                motion.stands(model, t_end)?;
-                check(t_end, &motion.at(model, t_end))?;
+                motion.reached(model, t_end)?;
                 (self.begin, *t) = (*t, t_end);
                 Ok(())
             }

@@ -91,6 +91,9 @@ pub struct Computation {
     /// knows only the steps of its own part.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::named"))]
     pub turns: Option<(&'static str, f64)>,
+    /// `|det phi|` at the end over the sum of the sizes of the products that it is made of: what is left of its digits.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
+    pub distinctness: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -14,6 +14,8 @@ use crate::integrate::taylor::order_for;
 use crate::model::{Conserved, Constraint, Description, LeftOut, Quantity, Scope};
 use crate::state::Phase;
 
+/// What is left of `det phi`, where half of its digits are lost.
+const HALF_LOST: f64 = 1e-8;
 /// Condition numbers from here on take more than half the digits.
 const WORTH_SAYING: f64 = 1e8;
 
@@ -306,6 +308,19 @@ impl Why {
         }
     }
 
+    /// Digits that no placement has whose stretches differ much.
+    fn distortion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.computation.distinctness {
+            left if left < HALF_LOST => writeln!(
+                f,
+                "stretched far: det phi is {left:.0e} of the products that it is the sum of at the end, so that it, the inverse of \
+                 phi, and momenta in the other frame have only {:.0} digits there",
+                f64::max(0.0, libm::log10(left / f64::EPSILON))
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// What the energy says of the run, where that is nothing good.
     fn energy(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { method, tolerance, energy_defect, .. } = self.computation;
@@ -390,6 +405,7 @@ impl fmt::Display for Why {
         self.tolerance(f)?;
         self.turns(f)?;
         self.power(f)?;
+        self.distortion(f)?;
         self.energy(f)
     }
 }

@@ -39,6 +39,16 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
+    /// The body has not collapsed, but its stretches differ so much that `det phi` is the rounding of the entries of `phi`, in the
+    /// plane by a factor of some 1e15: what reads it, or the inverse of `phi`, is not known any more.
+    Distortion {
+        /// What comes out for `det phi`.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        determinant: f64,
+        /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        t: f64,
+    },
     /// The motion leaves the states at which the potential has a value, or starts at one where it has none.
     Domain {
         /// The part of the potential, and the function that loses its sign.
@@ -184,6 +194,12 @@ impl fmt::Display for Reason {
                      that grows without bound as det phi -> 0 prevents it",
                 )
             }
+            Reason::Distortion { determinant, t } => write!(
+                f,
+                "det phi comes out as {determinant:e} at t = {t}, which is the rounding of the entries of phi: the body has not \
+                 collapsed, but its stretches differ so much that sixteen digits do not tell det phi and the inverse of phi any \
+                 more; end the run before, or add a potential that keeps the stretches together"
+            ),
             Reason::Domain { guard: Guard { part, argument, bound }, value, t } => write!(
                 f,
                 "{argument} is {value:e} at t = {t}, and {}: `{part}` of the potential has no value there; end the run before, \
@@ -237,7 +253,8 @@ impl fmt::Display for Reason {
             Reason::StepLimit { limit } => write!(
                 f,
                 "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
-                 tolerance, or, if the model is stiff, soften what makes it so"
+                 tolerance, or take another method: an implicit one where the model is stiff, Method::Rattle for masses under \
+                 det phi = 1 that are stretched far"
             ),
             Reason::Event { event, t } => write!(
                 f,

@@ -1,0 +1,47 @@
+//! Placements whose determinant is the rounding of their entries: the body has not collapsed, but doubles no longer tell.
+
+use super::point::determinant;
+use crate::error::Reason;
+use crate::frames::Matrix;
+use crate::inner::{LogDeterminant, norm};
+
+/// Part of the products that a determinant is the sum of, below which a step away from there it may be rounding.
+const LOST: f64 = 1e-10;
+/// Part of a value that rounding may make of a determinant.
+const KNOWN: f64 = 0.1;
+
+/// The sum of the sizes of the products that the determinant is the sum of.
+fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
+    let size = |i: usize, k: usize| phi[(i, k)].abs();
+    let minor = |a: usize, b: usize| size(1, a) * size(2, b) + size(1, b) * size(2, a);
+    match N {
+        2 => size(0, 0) * size(1, 1) + size(0, 1) * size(1, 0),
+        3 => size(0, 0) * minor(1, 2) + size(0, 1) * minor(0, 2) + size(0, 2) * minor(0, 1),
+        _ => f64::NAN,
+    }
+}
+
+/// `|det phi|` over the sum of the sizes of its products: what is left of its digits. 1 where that is not known.
+pub(super) fn distinctness<const N: usize>(phi: &Matrix<N>) -> f64 {
+    let unit = phi / norm(phi.as_slice());
+    let part = (determinant(&unit) / products(&unit)).abs();
+    if part.is_nan() { 1.0 } else { part }
+}
+
+/// Is the determinant known so well that it can be held against a value?
+pub(super) fn tells<const N: usize>(phi: &Matrix<N>, value: f64) -> bool {
+    value == 0.0 || f64::EPSILON * products(phi) <= KNOWN * value.abs()
+}
+
+/// The reason with what the last good placement tells: where its determinant was next to rounding, that is what has become of it.
+pub(super) fn told<const N: usize>(reason: Reason, phi: &Matrix<N>) -> Reason {
+    match reason {
+        Reason::Placement { determinant, t, .. } if determinant <= 0.0 && distinctness(phi) < LOST => {
+            Reason::Distortion { determinant, t }
+        }
+        Reason::Event { t, .. } if distinctness(phi) < LOST => {
+            Reason::Distortion { determinant: LogDeterminant::of(phi).to_f64(), t }
+        }
+        other => other,
+    }
+}
