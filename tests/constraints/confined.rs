@@ -289,7 +289,8 @@ conditions! {
     conformal_masses: 3 conformal (dalembert = [[i, a, 0], [a, i, 0], [0, 0, b]])
         [[1.0, 0.5, 1.0]] [[1.0, 1.5, 1.0] => "a leading minor of J > 0", [1.0, 0.5, -0.5] => "a leading minor of J > 0"];
     rigid_masses: 3 rigid (dalembert = [[i, a, 0], [a, i, 0], [0, 0, b]])
-        [[1.0, 0.5, 1.0]] [[1.0, 1.5, 1.0] => "a leading minor of J > 0", [1.0, 0.5, -0.5] => "a leading minor of J > 0"];
+        [[1.0, 0.5, 1.0], [1.0, 0.5, 0.0], [1.0, 1.5, 1.0]]
+        [[1.0, 0.5, -0.5] => "T != 0 on every principal velocity", [0.0, 0.5, 1.0] => "the eigenvalue of T != 0"];
 }
 
 /// A top whose inertia has a field in every place, and the same in numbers.

@@ -29,7 +29,7 @@ pub use force::ForceMistake;
 pub use form::{Directions, FormMistake};
 pub use kind::Diagnostic;
 pub use metric::MetricMistake;
-pub use notation::NotationMistake;
+pub use notation::{Meant, NotationMistake};
 pub use potential::{PotentialMistake, TracedPart};
 pub use term::TermMistake;
 pub use together::TogetherMistake;

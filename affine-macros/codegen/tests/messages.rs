@@ -85,6 +85,28 @@ fn every_mistake_has_a_reviewed_message() {
 }
 
 #[test]
+fn what_messages_advise_is_accepted() {
+    let planar = |potential: &str| format!("dim = 2, kinetic(casimir2 = 1, body_inertia = 2), {potential}");
+    let potentials = [
+        "potential = -exp(1/3*ln(8))*det + exp(2/3*ln(8))*q",
+        "potential = tr(phi)/det",
+        "potential = ln(q + sqrt(q^2 + 1)) + ln((1 + q)/(1 - q))/2",
+        "potential = ln(det + sqrt(det^2 - 1))",
+        "emit(two_polar, ratios)",
+    ];
+    let spatial = [
+        "dim = 3, kinetic(dalembert = 1), potential = (tr(phi)^2 - tr(phi^2))/(2*det)",
+        "dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1, 0))",
+    ];
+    let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
+    for args in potentials.map(planar).into_iter().chain(spatial.map(str::to_owned)) {
+        if let Err(refusal) = model(tokens(&args), tokens("struct M;")) {
+            panic!("{args}: {:?}", refusal.diagnostics().map(ToString::to_string).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
 fn several_mistakes_arrive_together() {
     let args = "dim = 4, kinetic(casimr2 = 0.2f64, body_inertia = ), emit(fast), emit(taylor)";
     let names: Vec<&str> = refusal(args, "enum M {}").diagnostics().map(Diagnostic::name).collect();

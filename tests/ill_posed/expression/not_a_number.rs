@@ -1,6 +1,6 @@
 use affine_runtime::affine_model;
 
-#[affine_model(dim = 2, kinetic(casimir2 = "0.2"))]
+#[affine_model(dim = 2, kinetic(casimir2 = 0x10))]
 struct Model;
 
 fn main() {}

@@ -1,5 +1,7 @@
 //! Arithmetic that has an exact value.
 
+use num_bigint::BigInt;
+
 use super::identity::vanishes;
 use super::size::{of_potential, summands};
 use crate::algebra::fault::never_missing;
@@ -119,19 +121,39 @@ fn exponent_is_integer(
         .into(),
         (None, Place::Coefficient) => ExpressionMistake::Exponent { exponent: exponent.to_string() }.into(),
         (None, Place::Potential) => {
-            let half = Rational::from(1).checked_div(&Rational::from(2));
-            let instead = if value.is_some() && value == half {
-                format!("sqrt({base})")
-            } else {
-                let logarithm = ExpressionKind::Call(Function::Ln, Box::new(base.clone()));
-                let logarithm = Expression { kind: logarithm, span: base.span };
-                format!("exp({})", Operator::Multiply.apply(exponent.clone(), logarithm))
-            };
+            let instead = as_function(base, exponent, n);
             let (base, exponent) = (base.to_string(), exponent.to_string());
             PotentialMistake::PotentialExponent { base, exponent, instead }.into()
         }
     };
     Err(found.report(exponent.span, mistake))
+}
+
+/// The same power as a root or an exponential; `None` where its base is a number without such a power. An odd root of a
+/// negative number is that of its size, with a sign.
+fn as_function(base: &Expression, exponent: &Expression, n: usize) -> Option<String> {
+    let value = constant(base, n);
+    if value.as_ref().is_some_and(Rational::is_zero) {
+        return None;
+    }
+    let Some(size) = value.filter(Rational::is_negative).map(|value| -&value) else {
+        return Some(of_positive(base.clone(), exponent, n));
+    };
+    let is_odd = |count: BigInt| count.bit(0);
+    let (numerator, denominator) = constant(exponent, n)?.parts();
+    let sign = if is_odd(numerator) { "-" } else { "" };
+    let size = Expression { kind: ExpressionKind::Number(size), span: base.span };
+    is_odd(denominator).then(|| format!("{sign}{}", of_positive(size, exponent, n)))
+}
+
+/// That of a positive base.
+fn of_positive(base: Expression, exponent: &Expression, n: usize) -> String {
+    if constant(exponent, n) == Some(Rational::HALF) {
+        return format!("sqrt({base})");
+    }
+    let span = base.span;
+    let logarithm = Expression { kind: ExpressionKind::Call(Function::Ln, Box::new(base)), span };
+    format!("exp({})", Operator::Multiply.apply(exponent.clone(), logarithm))
 }
 
 /// Exact numbers of high degree have more digits than a build has time for.

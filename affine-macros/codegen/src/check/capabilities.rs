@@ -3,10 +3,14 @@
 use crate::diagnostics::{CapabilityMistake, Diagnostics, PotentialMistake};
 use crate::spec::{Capability, Named, Spec};
 
-/// The lattice in ratios of stretches is a way to write the lattice.
+use super::parts::Part;
+use super::together;
+
+/// The lattice in ratios of stretches is a way to write the lattice; of a model that has none in ratios that is said already.
 pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {
     let ratios = spec.emit.iter().find(|c| c.value == Capability::Ratios);
-    if let Some(ratios) = ratios.filter(|_| !spec.asked().has(Capability::TwoPolar)) {
+    let refused = || together::refuses(spec, Part::Emitted(Capability::Ratios));
+    if let Some(ratios) = ratios.filter(|_| !spec.asked().has(Capability::TwoPolar) && !refused()) {
         found.report(ratios.span, CapabilityMistake::RatiosAlone);
     }
 }

@@ -10,7 +10,7 @@ use crate::spec::{self, Requirement, Spec};
 
 /// The Legendre transformation (4.18), (4.20), (4.6), (4.8) must be invertible: no eigenvalue of the isotropic
 /// form is zero, and a tensor has no kernel. Blocks with fields are left to `prepare()`.
-pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics) {
+pub(super) fn invertible(spec: &Spec, frame: Frame, hessian: &Hessian, found: &mut Diagnostics) {
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
@@ -24,10 +24,10 @@ pub(super) fn invertible(spec: &Spec, hessian: &Hessian, found: &mut Diagnostics
             let kernel = matrix_text(spec.dim.value, &kernel);
             let mistake = FormMistake::DegenerateTensor {
                 terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
-                velocity: match internal_terms(spec).find_map(|t| t.kind.value.internal_frame()) {
-                    Some(Frame::Space) => "Om",
-                    Some(Frame::Flat) => "phi_dot",
-                    _ => "Oh",
+                velocity: match frame {
+                    Frame::Space => "Om",
+                    Frame::Flat => "phi_dot",
+                    Frame::Body => "Oh",
                 },
                 kernel,
             };

@@ -105,7 +105,7 @@ pub(super) fn of_one_frame(
     kinetic.congruent = metrics.as_ref().and_then(|metrics| metrics.congruent(arena, &kinetic, &stated));
     let hessian = Hessian::new(&kinetic);
     nothing_vanishes(spec, std::slice::from_ref(&kinetic), &own_places, found);
-    definite::invertible(spec, &hessian, found);
+    definite::invertible(spec, kinetic.frame, &hessian, found);
     definite::positive(spec, &kinetic, &hessian, found);
     let free = free.map_or_else(|| vec![kinetic.clone()], |free| free.parts());
     for part in &free {

@@ -35,15 +35,14 @@ pub(super) fn are_mixed(spec: &Spec) -> bool {
 /// The frame in which a term has constant coefficients; `None` where any of body and space will do.
 fn frame(term: &Term, constraint: Option<Constraint>) -> Option<Frame> {
     let scalar = matches!(term.value, Value::Scalar(_));
-    match (constraint, term.kind.value) {
-        // tr(Om Om^T) = tr(Oh Oh^T) where phi is a rotation up to scale, and G = 1 where it is one.
+    let kind = term.kind.value;
+    match (constraint, constraint.map_or(kind, |group| group.same_as(kind))) {
+        // tr(Om Om^T) = tr(Oh Oh^T) where phi is a rotation up to scale.
         (Some(Constraint::Rigid | Constraint::Conformal), TermKind::BodyInertia | TermKind::SpaceInertia)
             if scalar =>
         {
             None
         }
-        (Some(Constraint::Rigid), TermKind::Dalembert) => Some(Frame::Body),
-        (Some(Constraint::Rigid), TermKind::BodyTranslation) => Some(Frame::Space),
         (_, kind) => kind.internal_frame().or(kind.translation_frame()),
     }
 }

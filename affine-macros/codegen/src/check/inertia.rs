@@ -10,14 +10,14 @@ use crate::symbol::TermKind;
 /// p = m x_dot: a zero mass leaves the velocity open. A negative mass is a legitimate indefinite energy beside
 /// affine terms, but not beside d'Alembert's, which is the energy of the same positive masses (2.1).
 pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
-    let dalembert = spec.term(TermKind::Dalembert).is_some();
+    let of_masses = of_masses(spec).is_some();
     for term in spec.kinetic.iter().filter(|term| term.kind.value.is_translation()) {
         let Value::Scalar(mass) = &term.value else { continue };
         let Some(value) = constant(mass, spec.dim.value) else { continue };
         let (name, coefficient) = (term.kind.value.name(), mass.to_string());
         if value.is_zero() {
             found.report(term.span, TermMistake::ZeroMass { term: name, coefficient });
-        } else if value.is_negative() && dalembert {
+        } else if value.is_negative() && of_masses {
             let value = value.to_string();
             found.report(term.span, TermMistake::NegativeMass { term: name, coefficient, value });
         }
@@ -50,11 +50,17 @@ fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mu
     }
 }
 
+/// The energy of positive masses, where it is one: with `phi` a rotation it is `body_inertia`, and judged as that.
+fn of_masses(spec: &Spec) -> Option<&Term> {
+    let same = |kind| spec.constraint.map_or(kind, |group| group.value.same_as(kind));
+    spec.kinetic.iter().find(|term| same(term.kind.value) == TermKind::Dalembert)
+}
+
 /// J > 0 for d'Alembert: it is a second moment of positive masses, and H = 1/2 Tr(Pi^T J^-1 Pi) (2.2) needs its
 /// inverse. Sylvester: the leading minors are positive, that is, all pivots of J = L D L^T. In an affine frame an
 /// indefinite J is legitimate; whether its form is degenerate depends on the Casimirs beside it.
 pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
-    let Some(term) = spec.term(TermKind::Dalembert) else { return };
+    let Some(term) = of_masses(spec) else { return };
     if let Some(defect) = defect(&term.value, spec.dim.value, "J") {
         found.report(term.span, TermMistake::InertiaNotPositive { term: term.kind.value.name(), defect });
     }

@@ -43,7 +43,7 @@ pub(super) fn energy(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) ->
     let mass = match mixed.internal.as_slice() {
         [one] if group.is_none() => {
             let hessian = Hessian::new(one);
-            definite::invertible(spec, &hessian, found);
+            definite::invertible(spec, one.frame, &hessian, found);
             Ok(Mass::Constant(hessian))
         }
         _ => regular_somewhere(spec, arena, &mixed, found),

@@ -164,6 +164,14 @@ pub(super) fn as_written(spec: &Spec, found: &mut Diagnostics) {
     exclude(&parts, &parts, found);
 }
 
+/// Does the specification say anything that this part may not stand beside?
+pub(super) fn refuses(spec: &Spec, part: Part) -> bool {
+    let written = parts::written(spec);
+    refusals()
+        .filter(|refusal| refusal.part == part)
+        .any(|refusal| written.iter().any(|present| present.part == refusal.beside))
+}
+
 /// Nor does what the potential turns out to depend on exclude any.
 pub(super) fn with_potential(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
     if let Some(potential) = potential {

@@ -27,7 +27,8 @@ pub(super) fn conditions(
     let dalembert = motion.polynomial().is_some_and(|(kinetic, _)| kinetic.is_dalembert());
     let terms = || motion.internal().flat_map(|part| &part.terms);
     // Masses are positive, whatever stands beside their energy.
-    let inertia = terms().find(|term| term.kind == TermKind::Dalembert).map(|term| &term.value);
+    let same = |kind| motion.constraint().map_or(kind, |group| group.same_as(kind));
+    let inertia = terms().find(|term| same(term.kind) == TermKind::Dalembert).map(|term| &term.value);
     let tensor = terms().any(|term| matches!(term.value, Coefficient::Matrix(_)));
     let mut list: Vec<(Factor, &'static str, bool, Polynomial)> = Vec::new();
     for (direction, value) in hessian.into_iter().flat_map(Hessian::eigenvalues) {

@@ -29,6 +29,11 @@ pub enum ExpressionMistake {
         /// The literal.
         literal: String,
     },
+    /// `"2*q"`.
+    Quoted {
+        /// The literal.
+        literal: String,
+    },
     /// A number beyond the range of the machine numbers.
     NumberRange {
         /// The literal.
@@ -67,6 +72,8 @@ pub enum ExpressionMistake {
     },
     /// `[1, 2]`, `[[1, 2], 3]`.
     FlatMatrix,
+    /// `[[1, 2] [3, 4]]`.
+    MissingComma,
     /// A name that is neither a field nor a symbol.
     UnknownSymbol {
         /// The name.
@@ -121,6 +128,7 @@ names! { ExpressionMistake
     DoubleStar => "double-star",
     NumberSuffix => "number-suffix",
     NotANumber => "not-a-number",
+    Quoted => "quoted",
     NumberRange => "number-range",
     ValueRange => "value-range",
     RustNotation => "rust-notation",
@@ -128,6 +136,7 @@ names! { ExpressionMistake
     FunctionCall => "function-call",
     ExpressionSize => "expression-size",
     FlatMatrix => "flat-matrix",
+    MissingComma => "missing-comma",
     UnknownSymbol => "unknown-symbol",
     FieldType => "field-type",
     HiddenSymbol => "hidden-symbol",
@@ -173,6 +182,11 @@ impl ExpressionMistake {
                 "coefficients are exact rationals written in decimal, such as `2`, `0.2`, `1e-3` or `1/3`",
                 "write a decimal number",
             ),
+            Self::Quoted { literal } => text(
+                format!("`{literal}` is a text in quotes"),
+                "expressions stand in the attribute as they are: numbers, names, operators and brackets",
+                "write the expression without quotes",
+            ),
             Self::NumberRange { literal } => text(
                 format!("the number `{literal}` is beyond the range of machine numbers"),
                 "coefficients are rounded to f64 in the end, which spans about 1e-308 to 1e308",
@@ -210,6 +224,11 @@ impl ExpressionMistake {
                 "a row of a matrix is not in brackets",
                 "a matrix is an array of rows, and a row is an array of entries",
                 "write `[[a, b], [c, d]]`, or `diag(a, d)`",
+            ),
+            Self::MissingComma => text(
+                "a comma is missing before this row of a matrix",
+                "a matrix is an array of rows, and commas stand between them",
+                "put a comma before it, as in `[[a, b], [c, d]]`",
             ),
             Self::UnknownSymbol { name, nearest, familiar, scope } => {
                 let field = format!("add a field `{name}: f64`");

@@ -3,6 +3,34 @@
 use super::message::{Text, listed, suggestion, text};
 use super::names::names;
 
+/// What is meant by a token that stands where it should not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meant {
+    /// `key: value`.
+    Equals,
+    /// `key: (...)`, where a list follows.
+    Nothing,
+    /// `key{...}`, `key[...]`.
+    RoundBrackets,
+    /// `key = value; ...`.
+    Comma,
+    /// No way to tell.
+    Unclear,
+}
+
+impl Meant {
+    /// What to write.
+    fn instead(self) -> &'static str {
+        match self {
+            Self::Equals => "write `=` for it",
+            Self::Nothing => "remove it: the list stands directly after the name, in round brackets",
+            Self::RoundBrackets => "write round brackets for it, as in `name(...)`",
+            Self::Comma => "write a comma for it",
+            Self::Unclear => "put a comma or `=` before it, or remove it",
+        }
+    }
+}
+
 /// A mistake of notation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotationMistake {
@@ -19,6 +47,8 @@ pub enum NotationMistake {
         list: &'static str,
         /// What stands there.
         found: String,
+        /// What is meant by it.
+        meant: Meant,
     },
     /// A key or term that does not exist.
     UnknownKey {
@@ -138,10 +168,10 @@ impl NotationMistake {
                 format!("the items of `{list}(...)` are separated by commas and each begins with a name"),
                 "write `name = value`, `name(...)` or `name`, as the item asks",
             ),
-            Self::MalformedItem { list, found } => text(
+            Self::MalformedItem { list, found, meant } => text(
                 format!("{found} does not belong to this item of `{list}(...)`"),
                 "an item is `name = value`, `name(...)` or `name`, and ends with a comma",
-                "put a comma or `=` before it, or remove it",
+                meant.instead(),
             ),
             Self::UnknownKey { list, found, nearest, known } => text(
                 format!("`{list}(...)` has no item `{found}`"),

@@ -127,8 +127,8 @@ pub enum PotentialMistake {
         base: String,
         /// The exponent.
         exponent: String,
-        /// The same power through a root or a logarithm.
-        instead: String,
+        /// The same power through a root or a logarithm, where there is one.
+        instead: Option<String>,
     },
 }
 
@@ -143,8 +143,10 @@ pub enum TracedPart {
     Transpose,
     /// `G^0.5`.
     Exponent,
-    /// `G^-2`, `(G - 1)^-1`, `phi^-1`, or `G^-1` beside other factors.
+    /// `G^-2`, `(G - 1)^-1`, or `G^-1` beside other factors.
     Inverse,
+    /// `phi^-1`.
+    InversePlacement,
 }
 
 impl TracedPart {
@@ -179,6 +181,11 @@ impl TracedPart {
                  not expanded",
                 "write `tr(G^-1)` as a summand or factor; tr(G^-2) is `tr(G^-1)^2 - 2/I2` for n = 2 and `tr(G^-1)^2 - 2*I1/I3` \
                  for n = 3",
+            ),
+            Self::InversePlacement => text(
+                format!("`{written}` is an inverse of `phi`, which has no notation here"),
+                "by Cayley and Hamilton tr(phi^-1) is a function of tr(phi), tr(phi^2) and det phi; tr(G^-1) is another quantity",
+                "for tr(phi^-1) write `tr(phi)/det` for n = 2 and `(tr(phi)^2 - tr(phi^2))/(2*det)` for n = 3",
             ),
         }
     }
@@ -307,7 +314,10 @@ impl PotentialMistake {
                 format!("the exponent `{exponent}` of `{base}` is not an integer known at compile time"),
                 "a real power with another exponent exists for a positive base only: a root or an exponential, \
                  written as such",
-                format!("write `{instead}`"),
+                match instead {
+                    Some(instead) => format!("write `{instead}`"),
+                    None => "write a positive base".to_owned(),
+                },
             ),
         }
     }

@@ -45,13 +45,22 @@ impl Constraint {
         }
     }
 
-    /// The form that a term has on `G`: with `phi^T phi = 1` is `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` and
-    /// `|phi^-1 x_dot| = |x_dot|`; with `phi^T phi = D^2 1` the first has the [weight](super::weight) `D^2`.
-    pub fn form_of(self, kind: TermKind) -> TermKind {
+    /// The term that a term is on `G`: with `phi^T phi = 1` is `tr(phi_dot J phi_dot^T) = tr(Oh J Oh^T)` and
+    /// `|phi^-1 x_dot| = |x_dot|`.
+    pub fn same_as(self, kind: TermKind) -> TermKind {
         match (self, kind) {
-            (Self::Rigid | Self::Conformal, TermKind::Dalembert) => TermKind::BodyInertia,
+            (Self::Rigid, TermKind::Dalembert) => TermKind::BodyInertia,
             (Self::Rigid, TermKind::BodyTranslation) => TermKind::SpaceTranslation,
             _ => kind,
+        }
+    }
+
+    /// The form that a term has on `G`, where that is not yet the same term: with `phi^T phi = D^2 1` is
+    /// `tr(phi_dot J phi_dot^T) = D^2 tr(Oh J Oh^T)`, with a [weight](super::weight).
+    pub fn form_of(self, kind: TermKind) -> TermKind {
+        match (self, kind) {
+            (Self::Conformal, TermKind::Dalembert) => TermKind::BodyInertia,
+            _ => self.same_as(kind),
         }
     }
 

@@ -44,8 +44,7 @@ pub struct Mixed {
 impl Mixed {
     /// Sorts the terms by their frames. The Casimirs, which have constant coefficients in body and space, go with
     /// `casimirs` where it has other terms, and to the affine frame that has some otherwise. Under a constraint each term has
-    /// the frame that it has [there](Constraint::form_of), but for d'Alembert's of a conformal motion, whose weight is not
-    /// constant.
+    /// the frame of what it is [there](Constraint::same_as).
     pub fn new(
         arena: &mut Arena,
         dim: usize,
@@ -54,7 +53,7 @@ impl Mixed {
         constraint: Option<Constraint>,
     ) -> Self {
         let rigid = constraint.filter(|group| *group == Constraint::Rigid);
-        let form = |kind: TermKind| rigid.map_or(kind, |group| group.form_of(kind));
+        let form = |kind: TermKind| constraint.map_or(kind, |group| group.same_as(kind));
         let has = |frame: Frame| terms.iter().any(|term| form(term.kind).internal_frame() == Some(frame));
         let affine = match (has(Frame::Body), has(Frame::Space)) {
             (true, true) => casimirs,

@@ -1,9 +1,10 @@
 //! Comma-separated lists of names, `key = value` and `key(...)`.
 
-use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, Span, TokenStream, TokenTree};
 
+use super::keys::Keyword;
 use super::names::{Named, nearest};
-use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
+use crate::diagnostics::{Diagnostics, Meant, NotationMistake, Region, Reported};
 
 /// The tokens between two commas.
 pub(super) struct Piece {
@@ -59,6 +60,29 @@ pub(super) fn pieces(tokens: TokenStream, end: Span) -> Vec<Piece> {
     pieces
 }
 
+/// The items of a list, which a semicolon separates as well, once it is reported.
+pub(super) fn items(
+    list: &'static str,
+    tokens: TokenStream,
+    end: Span,
+    found: &mut Diagnostics,
+) -> Vec<Piece> {
+    let with_comma = |token: TokenTree| {
+        if !is_punct(&token, ';') {
+            return token;
+        }
+        malformed(list, &token, Meant::Comma, found);
+        let mut comma = Punct::new(',', Spacing::Alone);
+        comma.set_span(token.span());
+        comma.into()
+    };
+    pieces(tokens.into_iter().map(with_comma).collect(), end)
+}
+
+fn is_punct(token: &TokenTree, symbol: char) -> bool {
+    matches!(token, TokenTree::Punct(punct) if punct.as_char() == symbol)
+}
+
 /// A token in a message; brackets are not spelled out.
 pub(super) fn describe(token: &TokenTree) -> String {
     match token {
@@ -93,7 +117,7 @@ pub(super) fn unwrapped(mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
 
 /// The entries of a list whose keys are the names of `K`; `elsewhere` are the terms of the other side. Whatever is not an
 /// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands for it.
-pub(super) fn entries<K: Named + PartialEq>(
+pub(super) fn entries<K: Keyword>(
     list: &'static str,
     tokens: TokenStream,
     end: Span,
@@ -101,7 +125,7 @@ pub(super) fn entries<K: Named + PartialEq>(
     found: &mut Diagnostics,
 ) -> Vec<Entry<K>> {
     let mut entries: Vec<Entry<K>> = Vec::new();
-    for piece in pieces(tokens, end)
+    for piece in items(list, tokens, end, found)
         .into_iter()
         .flat_map(|piece| separated::<K>(list, piece, found))
         .collect::<Vec<_>>()
@@ -135,7 +159,7 @@ fn separated<K: Named>(list: &'static str, piece: Piece, found: &mut Diagnostics
     };
     let starts: Vec<usize> = (1..tokens.len()).filter(|i| begins(*i)).collect();
     for start in &starts {
-        malformed(list, &tokens[*start], found);
+        malformed(list, &tokens[*start], Meant::Unclear, found);
     }
     let ends = starts.iter().copied().chain([tokens.len()]);
     let parts = [0].into_iter().chain(starts.iter().copied()).zip(ends);
@@ -148,7 +172,7 @@ fn separated<K: Named>(list: &'static str, piece: Piece, found: &mut Diagnostics
         .collect()
 }
 
-fn entry<K: Named>(
+fn entry<K: Keyword>(
     list: &'static str,
     piece: Piece,
     elsewhere: &[&'static str],
@@ -168,7 +192,7 @@ fn entry<K: Named>(
     };
     let at = name.span();
     match K::named(&name.to_string()) {
-        Some(key) => Some(Entry { key, at, body: body(list, tokens, found) }),
+        Some(key) => Some(Entry { key, at, body: body(list, key, tokens, found) }),
         None => {
             let (meant, reported) = unknown(list, &name, elsewhere, found);
             meant.map(|key| Entry { key, at, body: Body::Refused(reported) })
@@ -177,7 +201,12 @@ fn entry<K: Named>(
 }
 
 /// What follows the name of an entry.
-fn body(list: &'static str, mut tokens: impl Iterator<Item = TokenTree>, found: &mut Diagnostics) -> Body {
+fn body<K: Keyword>(
+    list: &'static str,
+    key: K,
+    mut tokens: impl Iterator<Item = TokenTree>,
+    found: &mut Diagnostics,
+) -> Body {
     let body = match tokens.next() {
         None => Body::Nothing,
         Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
@@ -185,17 +214,45 @@ fn body(list: &'static str, mut tokens: impl Iterator<Item = TokenTree>, found: 
             let at = region(&tokens).unwrap_or_else(|| equals.span().into());
             Body::Value(Piece { tokens, at })
         }
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => Body::List(group),
-        Some(other) => return Body::Refused(malformed(list, &other, found)),
+        Some(TokenTree::Group(group)) if may_be_list(key, &group) => Body::List(group),
+        Some(other) => {
+            return Body::Refused(malformed(list, &other, meant(key, &other, tokens.next()), found));
+        }
     };
     match tokens.next() {
         None => body,
-        Some(extra) => Body::Refused(malformed(list, &extra, found)),
+        Some(extra) => Body::Refused(malformed(list, &extra, Meant::Unclear, found)),
     }
 }
 
-fn malformed(list: &'static str, token: &TokenTree, found: &mut Diagnostics) -> Reported {
-    found.report(token.span(), NotationMistake::MalformedItem { list, found: describe(token) })
+/// Round brackets; and braces after a key that takes a value, which both lack.
+fn may_be_list<K: Keyword>(key: K, group: &Group) -> bool {
+    match group.delimiter() {
+        Delimiter::Parenthesis => true,
+        Delimiter::Brace => !key.takes_list(),
+        Delimiter::Bracket | Delimiter::None => false,
+    }
+}
+
+/// What is meant by a token that stands directly after a key, before another.
+fn meant<K: Keyword>(key: K, token: &TokenTree, next: Option<TokenTree>) -> Meant {
+    match token {
+        _ if is_punct(token, ':') => match next {
+            Some(TokenTree::Group(_)) if key.takes_list() => Meant::Nothing,
+            _ => Meant::Equals,
+        },
+        TokenTree::Group(_) if key.takes_list() => Meant::RoundBrackets,
+        _ => Meant::Unclear,
+    }
+}
+
+pub(super) fn malformed(
+    list: &'static str,
+    token: &TokenTree,
+    meant: Meant,
+    found: &mut Diagnostics,
+) -> Reported {
+    found.report(token.span(), NotationMistake::MalformedItem { list, found: describe(token), meant })
 }
 
 /// Reports a name that is no key. A term of the other side is told apart from a slip; for a slip, the key probably

@@ -219,6 +219,10 @@ impl<'p> Parser<'p> {
     fn number(&mut self, literal: &Literal) -> Result<Expression, Reported> {
         let span = Region::from(literal.span());
         let text = literal.to_string();
+        if let syn::Lit::Str(_) = syn::Lit::new(literal.clone()) {
+            let mistake = ExpressionMistake::Quoted { literal: super::entries::shortened(&text) };
+            return Err(self.found.report(span, mistake));
+        }
         // A macro can make the one token `-1`.
         let (negative, digits) = text.strip_prefix('-').map_or((false, text.as_str()), |rest| (true, rest));
         let value = exact(digits).map_err(|mistake| self.found.report(span, mistake))?;

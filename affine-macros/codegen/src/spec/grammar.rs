@@ -4,16 +4,16 @@ use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::parse::Parser;
 
 use super::custom::{self, Custom, SelfGravity, Summand};
-use super::entries::{Body, Entry, Piece, describe, entries, pieces, shortened, unwrapped};
+use super::entries::{Body, Entry, Piece, describe, entries, items, malformed, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::item::Item;
-use super::keys::{Key, Side};
+use super::keys::{Key, Keyword, Side};
 use super::momentum_side::{self, MomentumKind};
 use super::names::{Claim, Named, nearest};
 use super::spanned::Spanned;
 use super::statement::{Metric, Potential, Spec, Symmetry, Term};
 use super::value;
-use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
+use crate::diagnostics::{Diagnostics, Meant, NotationMistake, Region, Reported};
 use crate::symbol::TermKind;
 
 /// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
@@ -186,7 +186,7 @@ const HAMILTONIAN: TermList<MomentumKind> =
 const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
 
 /// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`.
-fn terms<K: Named + PartialEq>(
+fn terms<K: Keyword>(
     side: TermList<K>,
     list: Result<Group, Reported>,
     key: Span,
@@ -282,14 +282,11 @@ fn members<T: Named + PartialEq>(
     let Ok(list) = list else { return Vec::new() };
     let mut members: Vec<Spanned<T>> = Vec::new();
     let name = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
-    for Piece { tokens, at } in pieces(list.stream(), list.span_close()) {
+    for Piece { tokens, at } in items(name, list.stream(), list.span_close(), found) {
         if let [TokenTree::Ident(first), second @ TokenTree::Ident(_), ..] = tokens.as_slice()
             && T::named(&first.to_string()).is_some()
         {
-            found.report(
-                second.span(),
-                NotationMistake::MalformedItem { list: name, found: describe(second) },
-            );
+            malformed(name, second, Meant::Unclear, found);
             continue;
         }
         let Some(member) = member::<T>(role, tokens, at, found) else { continue };

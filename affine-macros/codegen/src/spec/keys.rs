@@ -1,6 +1,37 @@
 //! The words that arguments begin with, and how each may look.
 
+use super::momentum_side::MomentumKind;
 use super::names::{Named, named};
+use crate::symbol::TermKind;
+
+/// A word that an argument begins with.
+pub(super) trait Keyword: Named + PartialEq {
+    /// Does a list in parentheses follow it, and no `= value`?
+    fn takes_list(self) -> bool {
+        false
+    }
+}
+
+impl Keyword for Side {}
+impl Keyword for TermKind {}
+impl Keyword for MomentumKind {}
+
+impl Keyword for Key {
+    fn takes_list(self) -> bool {
+        match self {
+            Self::Symmetry
+            | Self::Kinetic
+            | Self::Hamiltonian
+            | Self::Metrics
+            | Self::Dissipation
+            | Self::Require
+            | Self::Emit => true,
+            Self::Dim | Self::Constraint | Self::Group | Self::Potential | Self::Forces | Self::Crate => {
+                false
+            }
+        }
+    }
+}
 
 /// The keys of `affine_model(...)`.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -22,7 +22,7 @@ const QUANTITIES: [(&[&str], &str); 11] = [
 ];
 
 /// Names of functions, with those that programming languages have.
-const FUNCTIONS: [(&[&str], &str); 13] = [
+const FUNCTIONS: [(&[&str], &str); 17] = [
     (&["exp2"], "write `exp(a*ln(2))`"),
     (&["dev"], "write `G - tr(G)/n` in a trace, as in `tr((G - tr(G)/n)^2)`"),
     (
@@ -39,6 +39,13 @@ const FUNCTIONS: [(&[&str], &str); 13] = [
     (&["cbrt"], "write `exp(ln(a)/3)`, of what is positive; the cube root of det phi is `D` for n = 3"),
     (&["inv", "inverse", "try_inverse"], "write `G^-1` in a trace, as in `tr(G^-1)`"),
     (&["transpose"], TRANSPOSED),
+    (
+        &["asin", "acos", "atan", "arcsin", "arccos", "arctan", "atan2"],
+        "use one of these, none of which is the inverse of `sin`, `cos` or `tan`, or a potential that a field computes, `custom(field, general)`",
+    ),
+    (&["asinh", "arsinh", "arcsinh"], "write `ln(a + sqrt(a^2 + 1))`"),
+    (&["acosh", "arcosh", "arccosh"], "write `ln(a + sqrt(a^2 - 1))`"),
+    (&["atanh", "artanh", "arctanh"], "write `ln((1 + a)/(1 - a))/2`"),
 ];
 
 /// What is written for a transpose.

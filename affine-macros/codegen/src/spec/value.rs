@@ -28,7 +28,11 @@ pub(super) fn parse(piece: Piece, found: &mut Diagnostics) -> Result<Value, Repo
 }
 
 fn row(piece: Piece, found: &mut Diagnostics) -> Result<Vec<Expression>, Reported> {
+    let is_row = |token: &TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket);
     match unwrapped(piece.tokens).as_slice() {
+        [first, second, ..] if is_row(first) && is_row(second) => {
+            Err(found.report(second.span(), ExpressionMistake::MissingComma))
+        }
         [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
             all(pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found)))
         }

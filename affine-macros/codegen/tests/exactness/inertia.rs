@@ -1,7 +1,7 @@
 //! Inertias `J` in the affine frames against the formulas of (4.17) in an eigenbasis of `J`, and forms that can be
 //! written in two ways.
 
-use affine_codegen::derive::Model;
+use affine_codegen::derive::{Condition, Model};
 use affine_codegen::diagnostics::{Diagnostic, FormMistake};
 use affine_oracle::{Matrix, Random, Rational, rational};
 use num_traits::{Signed, Zero};
@@ -211,6 +211,12 @@ fn as_tensor(j: &Matrix) -> Matrix {
 }
 
 fn same_programs(one: &str, other: &str) {
+    let [first, second] = same_motions(one, other);
+    assert_eq!(first.description.groups, second.description.groups, "{one}");
+}
+
+/// The same but for what the energies are invariant under, which is said of them without their constraint.
+fn same_motions(one: &str, other: &str) -> [Model; 2] {
     let (first, second) = (derived(one, "struct Model;"), derived(other, "struct Model;"));
     for ((name, found), (_, expected)) in programs(&first).into_iter().zip(programs(&second)) {
         assert_eq!(found, expected, "{name} of {one}");
@@ -218,8 +224,8 @@ fn same_programs(one: &str, other: &str) {
     assert_eq!(programs(&first).len(), programs(&second).len());
     assert_eq!(first.description.conserved, second.description.conserved, "{one}");
     assert_eq!(first.dynamics.closed_form, second.dynamics.closed_form, "{one}");
-    assert_eq!(first.description.groups, second.description.groups, "{one}");
     assert_eq!(first.description.signature, second.description.signature, "{one}");
+    [first, second]
 }
 
 /// An inertia has the programs of its tensor, in every frame; a multiple of the identity those of its factor.
@@ -252,6 +258,44 @@ fn inertias_have_the_programs_of_their_tensors() {
                 "numbers are inverted when the model is compiled"
             );
         }
+    }
+}
+
+/// With `phi` a rotation `tr(phi_dot J phi_dot^T)` is `tr(Oh J Oh^T)`: of a disc, too, whose `J` is singular and whose
+/// `tr J - J` is not.
+#[test]
+fn masses_of_a_rigid_body_are_its_inertia() {
+    let mut random = Random::new(116);
+    for n in [2, 3] {
+        let disc = diagonal_matrix(&(0..n).map(|k| rational(i64::from(k < 2), 1)).collect::<Vec<_>>());
+        for j in [disc, symmetric(&mut random, n), diagonal_matrix(&vec![rational(2, 1); n])] {
+            for mass in ["", ", body_translation = 2", ", space_translation = -2"] {
+                let args = |term: &str, value: &str| {
+                    format!("dim = {n}, constraint = rigid, kinetic({term} = {value}{mass})")
+                };
+                let value = matrix_literal(&j);
+                same_motions(&args("dalembert", &value), &args("body_inertia", &value));
+                same_motions(&args("dalembert", "3"), &args("body_inertia", "3"));
+            }
+        }
+    }
+}
+
+/// And `prepare()` asks the same of both.
+#[test]
+fn fields_of_a_rigid_body_are_asked_the_same() {
+    let asked = |term: &str, value: &str| {
+        let args = format!("dim = 3, constraint = rigid, kinetic({term} = {value}, space_translation = m)");
+        let model = derived(&args, "struct Model { a: f64, b: f64, c: f64, m: f64 }");
+        let asked = |condition: &Condition| (condition.factor, condition.positive, condition.program.clone());
+        let conditions: Vec<_> = model.prepared.conditions().map(asked).collect();
+        let blocks: Vec<_> =
+            model.prepared.inverted().map(|block| (block.positive, block.program.clone())).collect();
+        assert!(conditions.iter().all(|(_, positive, _)| !positive), "{args}");
+        (conditions, blocks)
+    };
+    for value in ["a", "diag(a, b, c)", "diag(a, b, 0)", "[[a, b, 0], [b, a, 0], [0, 0, c]]"] {
+        assert_eq!(asked("dalembert", value), asked("body_inertia", value), "{value}");
     }
 }
 

@@ -13,14 +13,12 @@ impl Constraint {
         if self == Self::Isochoric {
             return terms;
         }
+        let same = |term: &Term| self.same_as(term.kind);
         let scalar = |term: &Term| matches!(term.value, Coefficient::Scalar(_));
-        let is_free =
-            |term: &Term| matches!(term.kind, TermKind::BodyInertia | TermKind::SpaceInertia) && scalar(term);
-        let frame = |term: &Term| match (self, term.kind) {
-            // Of the conformal one a weight is left.
-            (Self::Conformal, TermKind::Dalembert) => None,
-            _ => self.form_of(term.kind).internal_frame(),
+        let is_free = |term: &Term| {
+            matches!(same(term), TermKind::BodyInertia | TermKind::SpaceInertia) && scalar(term)
         };
+        let frame = |term: &Term| same(term).internal_frame();
         let bound =
             |wanted: Frame| terms.iter().any(|(_, term)| !is_free(term) && frame(term) == Some(wanted));
         let any_of_space = terms.iter().any(|(_, term)| frame(term) == Some(Frame::Space));

@@ -97,9 +97,10 @@ impl Parser<'_> {
         let words = self.words(base, scalars)?;
         match (u32::try_from(power), words.as_letter()) {
             (Ok(power), _) => self.repeated(&words, power, part),
-            (Err(_), Some(Letter { matrix, is_inverse: false }))
-                if power == -1 && matrix != MatrixName::Placement =>
-            {
+            (Err(_), Some(Letter { matrix: MatrixName::Placement, .. })) => {
+                Err(self.refused(part, part.span, TracedPart::InversePlacement))
+            }
+            (Err(_), Some(Letter { matrix, is_inverse: false })) if power == -1 => {
                 Ok(Words::letter(Letter { matrix, is_inverse: true }))
             }
             _ => Err(self.refused(part, part.span, TracedPart::Inverse)),
