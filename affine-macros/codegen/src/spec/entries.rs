@@ -246,6 +246,7 @@ fn meant<K: Keyword>(key: K, token: &TokenTree, next: Option<TokenTree>) -> Mean
     }
 }
 
+/// Reports a token that does not belong to its item.
 pub(super) fn malformed(
     list: &'static str,
     token: &TokenTree,
