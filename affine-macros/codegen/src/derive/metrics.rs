@@ -12,7 +12,7 @@ use super::components::Components;
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
 pub enum ChangeOfBases {
     /// The bases of metrics that are numbers.
-    Known(Bases),
+    Known(Box<Bases>),
     /// From the fields, when the model is prepared.
     Prepared,
 }
@@ -25,7 +25,7 @@ impl ChangeOfBases {
         rebased: &[Rebased],
     ) -> (Self, Option<Preparation>) {
         match metrics {
-            Metrics::Known(bases) => (Self::Known(bases), None),
+            Metrics::Known(bases) => (Self::Known(Box::new(bases)), None),
             Metrics::Given(given) => {
                 let metrics = given.map(|rows| entries(arena, &rows.concat()));
                 let matrices = rebased.iter().map(|matrix| GivenMatrix::of(arena, matrix)).collect();
