@@ -115,7 +115,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             };
             motion.resolved(until)?;
             let met = self.meet_between(until, rate, &mut |t| Ok((at(t), 0.0)));
-            if met.map_err(|reason| told(reason, at(until).phi()))? {
+            if met.map_err(|reason| told(reason, at(until).phi(), 0.0))? {
                 return Ok(());
             }
             let Some(t) = due else { break };

@@ -5,13 +5,17 @@ use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::inner::{LogDeterminant, norm};
 
-/// Part of the products that a determinant is the sum of, below which a step away from there it may be rounding.
-const LOST: f64 = 1e-10;
+/// Part of the products that a determinant is the sum of, below which it is rounding: some hundred roundings of each.
+const ROUNDED: f64 = 1e-13;
+/// Part of these products below which it may be rounding a step away from there.
+const NEARLY: f64 = 1e-10;
+/// Part of these products that a determinant changes by while the body changes by as much as it is, where it falls to zero.
+const FALLS: f64 = 1e-6;
 /// Part of a value that rounding may make of a determinant.
 const KNOWN: f64 = 0.1;
 
 /// The sum of the sizes of the products that the determinant is the sum of.
-fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
+pub(super) fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
     let size = |i: usize, k: usize| phi[(i, k)].abs();
     let minor = |a: usize, b: usize| size(1, a) * size(2, b) + size(1, b) * size(2, a);
     match N {
@@ -33,13 +37,18 @@ pub(super) fn tells<const N: usize>(phi: &Matrix<N>, value: f64) -> bool {
     value == 0.0 || f64::EPSILON * products(phi) <= KNOWN * value.abs()
 }
 
-/// The reason with what the last good placement tells: where its determinant was next to rounding, that is what has become of it.
-pub(super) fn told<const N: usize>(reason: Reason, phi: &Matrix<N>) -> Reason {
+/// The reason with what the last good placement tells: where its determinant was next to rounding and did not fall, and what came
+/// of it is rounding of its products, the body has not collapsed. `fall` is the part of these by which it changes while the body
+/// changes by as much as it is.
+pub(super) fn told<const N: usize>(reason: Reason, phi: &Matrix<N>, fall: f64) -> Reason {
+    let is_rounding = |determinant: f64| determinant <= 0.0 && -determinant <= ROUNDED * products(phi);
     match reason {
-        Reason::Placement { determinant, t, .. } if determinant <= 0.0 && distinctness(phi) < LOST => {
+        Reason::Placement { determinant, t, .. }
+            if fall < FALLS && is_rounding(determinant) && distinctness(phi) < NEARLY =>
+        {
             Reason::Distortion { determinant, t }
         }
-        Reason::Event { t, .. } if distinctness(phi) < LOST => {
+        Reason::Event { t, .. } if distinctness(phi) < ROUNDED => {
             Reason::Distortion { determinant: LogDeterminant::of(phi).to_f64(), t }
         }
         other => other,

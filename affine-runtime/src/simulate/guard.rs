@@ -2,7 +2,7 @@
 //! potential a value.
 
 use super::collapse::{failing, first_failure, rate_of_determinant};
-use super::distortion::told;
+use super::distortion::{products, told};
 use super::domain::Domain;
 use super::failed::failed;
 use super::mechanics::Mechanics;
@@ -12,6 +12,7 @@ use super::orientation::{Moment, keeps_orientation, passes_through_zero};
 use super::point::check;
 use super::signature::Signature;
 use crate::error::Reason;
+use crate::inner::norm;
 use crate::integrate::Failure;
 use crate::state::Phase;
 
@@ -117,10 +118,12 @@ pub(super) fn explained<const N: usize, P: Phase<N>>(
     (good, point): (f64, &P),
     reason: Reason,
 ) -> Reason {
-    match told(reason, point.phi()) {
+    let (phi, phi_dot) = (point.phi(), model.velocity(point).phi_dot);
+    let rate = rate_of_determinant(model, point);
+    let unit = products(phi) * norm(phi_dot.as_slice()) / norm(phi.as_slice());
+    match told(reason, phi, rate.abs() / unit) {
         Reason::Placement { determinant, rate: None, t } => {
-            let rate = Some(rate_of_determinant(model, point));
-            Reason::Placement { determinant, rate, t: collapse(motion, good, t) }
+            Reason::Placement { determinant, rate: Some(rate), t: collapse(motion, good, t) }
         }
         other => other,
     }
