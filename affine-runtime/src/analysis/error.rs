@@ -36,7 +36,7 @@ pub enum AnalysisError {
     },
     /// A branch is followed in steps of positive length, from a parameter within its range.
     Range {
-        /// The longest step.
+        /// The longest step along the branch, in all unknowns together.
         step: f64,
         /// The least parameter.
         low: f64,

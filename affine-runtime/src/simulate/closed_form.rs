@@ -66,12 +66,15 @@ impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
         }
     }
 
-    /// The phase point at a time up to a collapse.
+    /// The phase point at a time, which is before any collapse: none but that of a straight line loses its orientation.
     pub(super) fn reached(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<P, Reason> {
         self.stands(model, t)?;
         let point = self.at(model, t);
+        let may_collapse = matches!(self.geodesic.motion, Orbit::Straight { .. });
         match check(t, &point) {
-            Err(Reason::Placement { determinant, .. }) => Err(Reason::Distortion { determinant, t }),
+            Err(Reason::Placement { determinant, .. }) if !may_collapse => {
+                Err(Reason::Distortion { determinant, t })
+            }
             checked => checked.map(|()| point),
         }
     }

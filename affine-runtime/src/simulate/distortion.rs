@@ -14,7 +14,7 @@ const FALLS: f64 = 1e-6;
 /// Part of a value that rounding may make of a determinant.
 const KNOWN: f64 = 0.1;
 
-/// The sum of the sizes of the products that the determinant is the sum of.
+/// The sum of the absolute values of the products that the determinant is the sum of.
 pub(super) fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
     let size = |i: usize, k: usize| phi[(i, k)].abs();
     let minor = |a: usize, b: usize| size(1, a) * size(2, b) + size(1, b) * size(2, a);
@@ -25,7 +25,7 @@ pub(super) fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
     }
 }
 
-/// `|det phi|` over the sum of the sizes of its products: what is left of its digits. 1 where that is not known.
+/// `|det phi|` over the sum of the absolute values of its products: what is left of its digits. 1 where that is not known.
 pub(super) fn distinctness<const N: usize>(phi: &Matrix<N>) -> f64 {
     let unit = phi / norm(phi.as_slice());
     let part = (determinant(&unit) / products(&unit)).abs();

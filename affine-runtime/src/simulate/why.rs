@@ -308,13 +308,13 @@ impl Why {
         }
     }
 
-    /// Digits that no placement has whose stretches differ much.
+    /// Digits of the determinant that a flat body has lost, or one that is stretched far.
     fn distortion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.computation.distinctness {
             left if left < HALF_LOST => writeln!(
                 f,
-                "stretched far: det phi is {left:.0e} of the products that it is the sum of at the end, so that it, the inverse of \
-                 phi, and momenta in the other frame have only {:.0} digits there",
+                "flat at the end, or stretched far: det phi is {left:.0e} of the products that it is the sum of, so that it, the \
+                 inverse of phi, and momenta in the other frame have only {:.0} digits there",
                 f64::max(0.0, libm::log10(left / f64::EPSILON))
             ),
             _ => Ok(()),

@@ -19,7 +19,7 @@ pub enum Meant {
 }
 
 impl Meant {
-    /// What to write.
+    /// What a message advises to write in place of the token.
     fn instead(self) -> &'static str {
         match self {
             Self::Equals => "write `=` for it",

@@ -90,7 +90,7 @@ fn held(condition: &Condition, text: &str, reason: &str, names: &Names) -> Token
     }
 }
 
-/// An inverse block.
+/// The statement that inverts a block in numbers, and names the entries of the inverse.
 pub(super) fn inverse(context: &Context, block: &NumericBlock) -> TokenStream {
     let (names, rt, t) = (context.names, &context.names.rt, &context.names.scalar);
     let Body { lets, results } = over_fields(names, &block.program);
