@@ -12,7 +12,7 @@ use crate::mechanics::metric::Definitions;
 use crate::mechanics::mixed::Legendre;
 use crate::mechanics::potential::{Base, Potential};
 use crate::optimise::Batch;
-use crate::symbol::Quantity;
+use crate::symbol::{Frame, Quantity};
 
 use super::domain::domain;
 use super::model::{MixedMasses, PointPrograms, VelocitySide};
@@ -36,15 +36,16 @@ impl Body<'_> {
         };
         let velocities = Matrix::symbols(arena, frame.velocity(), n);
         let momenta = Matrix::symbols(arena, frame.momentum(), n);
-        let [v, x_dot, p] = [Quantity::GivenVelocity, Quantity::CentreVelocity, Quantity::LinearMomentum]
-            .map(|of| (1..=n).map(|i| arena.symbol(of.at([i]))).collect::<Vec<_>>());
+        let [x_dot, v_hat, p] =
+            [Quantity::CentreVelocity, Quantity::ComovingCentreVelocity, Quantity::LinearMomentum]
+                .map(|of| arena.components(of, n));
+        let moving = [x_dot.clone(), v_hat, moving_matrices(arena, n)].concat();
         let forms = self.motion.legendre(arena);
-        let kinetic_energy = forms.first().map(|form| self.kinetic_energy(arena, form, &v));
+        let kinetic_energy = forms.first().map(|form| self.kinetic_energy(arena, form, &moving));
         let legendre = |Legendre { shared, momentum, .. }: Legendre| {
-            Batch { shared, ..matrix_batch(arena, &momenta, &momentum) }.pruned(arena)
+            given(arena, Batch { shared, ..matrix_batch(arena, &momenta, &momentum) }, &moving)
         };
         let legendre: Vec<Batch> = forms.into_iter().map(legendre).collect();
-        let moving = [velocities.0.concat(), v].concat();
         let legendre = kinetic_energy.is_some().then(|| program(arena, &legendre, &moving));
         let (shared, values) = self.motion.velocity(arena);
         let velocity = Batch { shared, ..matrix_batch(arena, &velocities, &values) };
@@ -66,7 +67,7 @@ impl Body<'_> {
         let mixed_masses = match self.motion.masses.are_mixed() {
             true => {
                 let [momentum, velocity] = self.centre(arena, &x_dot)?;
-                let momentum = program(arena, from_ref(&momentum), &x_dot);
+                let momentum = program(arena, &[given(arena, momentum, &moving)], &moving);
                 Some(MixedMasses { momentum, velocity: program(arena, from_ref(&velocity), &p) })
             }
             false => None,
@@ -133,21 +134,14 @@ impl Body<'_> {
         Some(Batch { results, ..Batch::default() })
     }
 
-    /// `T_int + m/2 |v|^2` with `v` in the frame of the translation; with two masses `v = x_dot`.
-    fn kinetic_energy(&self, arena: &mut Arena, form: &Legendre, v: &[Expr]) -> Batch {
+    /// `T_int` and the energy of the centre of mass, from what is known of a point that moves.
+    fn kinetic_energy(&self, arena: &mut Arena, form: &Legendre, moving: &[Expr]) -> Batch {
         let mut energy =
             Batch { shared: form.shared.clone(), ..result(Quantity::Energy, form.energy.clone()) };
-        if self.motion.masses.are_mixed() {
-            let (shared, _, of_both) = self.motion.masses.legendre(arena, v);
-            join(&mut energy, &of_both, shared);
-        } else if let Some(mass) = self.motion.masses.single() {
-            let mass = Polynomial::normal_form(arena, mass);
-            for v in v {
-                let square = Polynomial::monomial([*v, *v]);
-                energy.results[0].1.add_product(&square, &mass, &Rational::HALF);
-            }
-        }
-        energy.pruned(arena)
+        let x_dot = arena.components(Quantity::CentreVelocity, self.motion.dim());
+        let (_, _, of_centre) = self.motion.masses.legendre(arena, &x_dot);
+        energy.results[0].1.add_scaled(&of_centre, &Rational::ONE);
+        given(arena, energy, moving)
     }
 
     /// `H` at a point of a chart, from the value of the potential and what that shares.
@@ -193,6 +187,19 @@ fn placement_inputs(arena: &mut Arena, n: usize) -> Vec<Expr> {
     let mut inputs = vec![Base::MeanLogStretch.symbol(arena), arena.symbol(Quantity::Dilatation)];
     inputs.extend((0..n).map(|a| Base::LogStretch(a).symbol(arena)));
     inputs
+}
+
+/// What products of matrices give of a placement that moves: the affine velocities in all frames, and `phi^-1`.
+fn moving_matrices(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    let affine = [Frame::Body, Frame::Space, Frame::Flat].map(Frame::velocity);
+    let matrices = affine.into_iter().chain([Quantity::InversePlacement]);
+    matrices.flat_map(|of| Matrix::symbols(arena, of, n).0.concat()).collect()
+}
+
+/// A batch that is given some of its quantities.
+fn given(arena: &Arena, mut batch: Batch, quantities: &[Expr]) -> Batch {
+    batch.shared.retain(|(symbol, _)| !quantities.contains(symbol));
+    batch.pruned(arena)
 }
 
 /// Adds to the first result a value with what it shares.

@@ -11,7 +11,7 @@ use crate::symbol::{Quantity, Symbol};
 use super::body::Body;
 use super::names::Names;
 use super::number::number;
-use super::pattern::{entries, ident, pattern, table};
+use super::pattern::{entries, ident, leading_pattern, table};
 
 /// The function that gives the velocity of a momentum, and after it the intermediate results that other methods go on with.
 pub(super) struct Function {
@@ -46,7 +46,7 @@ impl Function {
     pub(super) fn called_by(&self, program: &Program) -> Option<(TokenStream, Program)> {
         let rest = self.common.taken_from(program)?;
         let results: Vec<Symbol> = self.common.program.results().cloned().collect();
-        let results = pattern(&results, &rest.inputs());
+        let results = leading_pattern(&results, &rest.inputs());
         let numbers = self.numbers();
         let numbers = (!numbers.is_empty()).then(|| quote!([#(#numbers),*]));
         let arguments = self.matrices.iter().map(|(_, rows)| table(rows)).chain(numbers);

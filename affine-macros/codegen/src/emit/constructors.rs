@@ -10,8 +10,7 @@ use crate::symbol::Quantity;
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::number::Number;
-use super::pattern::{entries, table_pattern};
-use super::point::{affine_velocity, placement, wrapper};
+use super::point::{Moving, moving, wrapper};
 use super::{mixed, quantities, refused};
 
 /// `at_momentum` and `at_velocity`.
@@ -153,16 +152,14 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
 /// `O -> X` in the model's frame.
 fn legendre(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
-    let components = entries(context.model.frame.velocity(), context.model.dim);
-    let components = table_pattern(&components, &program.inputs());
+    let masses = context.model.point.mixed_masses.as_ref().map(|masses| &masses.momentum);
+    let programs: Vec<&Program> = [program].into_iter().chain(masses).collect();
+    let Moving { lets: moving, .. } = moving(context, &programs, &quote!(&phi), &quote!(x_dot));
     let Body { lets, results } = context.double(program);
     let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
-    let velocity = affine_velocity(context, &quote!(&phi));
     let wrapper = wrapper(context, context.model.spin());
-    let placement = placement(context, program, &quote!(&phi));
     quote! {
-        let #components = #rt::rows(&#velocity);
-        #placement
+        #moving
         #lets
         let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
     }
@@ -170,14 +167,11 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
 
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
-    let rt = &context.names.rt;
     let Some(program) = &context.model.point.mass else { return mixed::momentum_of_centre(context) };
-    let (first, velocity) = match context.model.centre() {
-        Some(Components::Comoving) => {
-            (quote!(let to_body = #rt::inverse(&phi);), quote!(to_body.tr_mul(&(to_body * x_dot))))
-        }
-        _ => (TokenStream::new(), quote!(x_dot)),
+    let velocity = match context.model.centre() {
+        Some(Components::Comoving) => quote!(phi_inverse.tr_mul(&(phi_inverse * x_dot))),
+        _ => quote!(x_dot),
     };
     let (lets, p) = context.times(velocity, (program, Quantity::Mass), Number::Double);
-    quote!(#first #lets let p = #p;)
+    quote!(#lets let p = #p;)
 }

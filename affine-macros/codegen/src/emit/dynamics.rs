@@ -15,9 +15,7 @@ use super::mixed;
 use super::number::Number;
 use super::parametric::{Evaluation, Method};
 use super::pattern::{components, entries, identifiers, pattern, table, table_pattern, time};
-use super::point::{
-    affine_velocity, at_placement, bind_components, bind_point, own_spin, placement, wrapper,
-};
+use super::point::{Moving, at_placement, bind_components, bind_point, moving, own_spin, placement, wrapper};
 
 /// The methods that do not reduce.
 pub(super) fn methods(context: &Context) -> Vec<Method> {
@@ -98,25 +96,9 @@ fn kinetic_energy(context: &Context) -> TokenStream {
             }
         };
     };
-    let used = program.inputs();
-    let entries = table_pattern(&entries(context.model.frame.velocity(), context.model.dim), &used);
-    let o = affine_velocity(context, &quote!(phi));
-    let placement = placement(context, program, &quote!(phi));
-    let reads_phi = context.model.spin() != Components::TwoPoint
-        || context.model.centre() == Some(Components::Comoving)
-        || !placement.is_empty();
+    let Moving { lets: moving, reads_phi } =
+        moving(context, &[program], &quote!(phi), &quote!(velocity.x_dot));
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
-    let centre = match context.model.centre() {
-        None => TokenStream::new(),
-        Some(frame) => {
-            let v = pattern(&components(Quantity::GivenVelocity, context.model.dim), &used);
-            let value = match frame {
-                Components::Comoving => quote!((#rt::inverse(phi) * velocity.x_dot)),
-                _ => quote!(velocity.x_dot),
-            };
-            quote!(let #v = #rt::components(&#value);)
-        }
-    };
     let body = context.generic(program, Coefficients::Given);
     let (lets, energy) = (&body.lets, body.result());
     let Evaluation { name, parameter } =
@@ -137,9 +119,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
         ) -> #t {
             #inward
             let phi_dot = velocity.phi_dot;
-            let #entries = #rt::rows(&#o);
-            #placement
-            #centre
+            #moving
             #lets
             #energy
         }

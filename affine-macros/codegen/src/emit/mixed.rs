@@ -3,7 +3,6 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::ir::Program;
 use crate::symbol::Quantity;
 
 use super::body::Body;
@@ -12,31 +11,23 @@ use super::number::number;
 use super::pattern::{components, pattern};
 use super::point::placement;
 
-/// A statement that binds the components of a vector that a program reads.
-fn vector(context: &Context, program: &Program, of: Quantity, value: &TokenStream) -> TokenStream {
-    let rt = &context.names.rt;
-    let bound = pattern(&components(of, context.model.dim), &program.inputs());
-    quote!(let #bound = #rt::components(&#value);)
-}
-
 /// `x_dot` of a point from `phi` and `p`: statements, and the vector.
 pub(super) fn velocity_of_centre(context: &Context) -> (TokenStream, TokenStream) {
     let Some(masses) = &context.model.point.mixed_masses else { return Default::default() };
     let (rt, program) = (&context.names.rt, &masses.velocity);
     let placement = placement(context, program, &quote!(#rt::Phase::phi(point)));
-    let p = vector(context, program, Quantity::LinearMomentum, &quote!(#rt::Phase::p(point)));
+    let p = pattern(&components(Quantity::LinearMomentum, context.model.dim), &program.inputs());
     let Body { lets, results } = context.generic(program, Coefficients::Given);
-    (quote!(#placement #p #lets), quote!(#rt::vector([#(#results),*])))
+    let lets = quote!(#placement let #p = #rt::components(&#rt::Phase::p(point)); #lets);
+    (lets, quote!(#rt::vector([#(#results),*])))
 }
 
-/// `p` from `phi` and `x_dot`.
+/// `p` of what moves.
 pub(super) fn momentum_of_centre(context: &Context) -> TokenStream {
     let Some(masses) = &context.model.point.mixed_masses else { return TokenStream::new() };
-    let (rt, program) = (&context.names.rt, &masses.momentum);
-    let placement = placement(context, program, &quote!(&phi));
-    let velocity = vector(context, program, Quantity::CentreVelocity, &quote!(x_dot));
-    let Body { lets, results } = context.double(program);
-    quote!(#placement #velocity #lets let p = #rt::vector([#(#results),*]);)
+    let rt = &context.names.rt;
+    let Body { lets, results } = context.double(&masses.momentum);
+    quote!(#lets let p = #rt::vector([#(#results),*]);)
 }
 
 /// `regularity`: signs and weakest pivot of the mass matrix, where they are not known for all placements.

@@ -29,8 +29,21 @@ pub(super) fn reads(used: &[Symbol], symbols: &[Symbol]) -> bool {
 
 /// Pattern that binds the components that are used, in order.
 pub(super) fn pattern(components: &[Symbol], used: &[Symbol]) -> TokenStream {
-    let bind = components.iter().map(|symbol| if used.contains(symbol) { named(symbol) } else { quote!(_) });
+    let bind = components.iter().map(|symbol| bound_if(used.contains(symbol), symbol));
     quote!([#(#bind),*])
+}
+
+fn bound_if(is_used: bool, symbol: &Symbol) -> TokenStream {
+    if is_used { named(symbol) } else { quote!(_) }
+}
+
+/// The same of many components: it ends behind the last that is used.
+pub(super) fn leading_pattern(components: &[Symbol], used: &[Symbol]) -> TokenStream {
+    let end = components.iter().rposition(|symbol| used.contains(symbol)).map_or(0, |last| last + 1);
+    let bind = components[..end].iter().map(|symbol| bound_if(used.contains(symbol), symbol));
+    let rest = (end < components.len()).then(|| quote!(..));
+    let parts = bind.chain(rest);
+    quote!([#(#parts),*])
 }
 
 /// The statement that binds those of some components that are used to what `from` points at, and the name of that parameter,

@@ -25,14 +25,50 @@ pub(super) fn spin(context: &Context, components: Components) -> TokenStream {
     }
 }
 
-/// The affine velocity of the model's frame from a reference to `phi` and `phi_dot`.
-pub(super) fn affine_velocity(context: &Context, phi: &TokenStream) -> TokenStream {
-    let rt = &context.names.rt;
-    match context.model.spin() {
-        Components::Comoving => quote!((#rt::inverse(#phi) * phi_dot)),
-        Components::Spatial => quote!((phi_dot * #rt::inverse(#phi))),
-        Components::TwoPoint => quote!(phi_dot),
-    }
+/// What programs read of a placement that moves.
+pub(super) struct Moving {
+    /// `let` statements for it, and for `phi_inverse` where that is needed.
+    pub(super) lets: TokenStream,
+    /// Is `phi` among it?
+    pub(super) reads_phi: bool,
+}
+
+/// What programs read of the placement that `phi` points at, which moves with `phi_dot` and `x_dot`. The momentum of a mass in the
+/// body needs `phi_inverse`, whatever they read.
+pub(super) fn moving(
+    context: &Context,
+    programs: &[&Program],
+    phi: &TokenStream,
+    x_dot: &TokenStream,
+) -> Moving {
+    let (rt, n) = (&context.names.rt, context.model.dim);
+    let used: Vec<Symbol> = programs.iter().flat_map(|program| program.inputs()).collect();
+    let matrix = |of: Quantity, value: TokenStream| {
+        let entries = entries(of, n);
+        let bound = table_pattern(&entries, &used);
+        reads(&used, &entries.concat()).then(|| quote!(let #bound = #rt::rows(#value);))
+    };
+    let vector = |of: Quantity, value: TokenStream| {
+        let components = components(of, n);
+        let bound = pattern(&components, &used);
+        reads(&used, &components).then(|| quote!(let #bound = #rt::components(#value);))
+    };
+    let through_inverse = [
+        matrix(Quantity::ComovingAffineVelocity, quote!(&(phi_inverse * phi_dot))),
+        matrix(Quantity::AffineVelocity, quote!(&(phi_dot * phi_inverse))),
+        matrix(Quantity::InversePlacement, quote!(&phi_inverse)),
+        vector(Quantity::ComovingCentreVelocity, quote!(&(phi_inverse * #x_dot))),
+    ];
+    let given = [
+        matrix(Quantity::PlacementVelocity, quote!(&phi_dot)),
+        vector(Quantity::CentreVelocity, quote!(&#x_dot)),
+    ];
+    let placement = matrix(Quantity::Placement, phi.clone());
+    let inverts =
+        context.model.centre() == Some(Components::Comoving) || through_inverse.iter().any(Option::is_some);
+    let inverse = inverts.then(|| quote!(let phi_inverse = #rt::inverse(#phi);));
+    let lets = quote!(#inverse #(#through_inverse)* #(#given)* #placement);
+    Moving { lets, reads_phi: inverts || placement.is_some() }
 }
 
 /// Wrapper of a vector or a matrix of these components.

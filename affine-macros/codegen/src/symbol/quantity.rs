@@ -23,7 +23,7 @@ macro_rules! quantities {
 
 quantities! {
     Time "t" TimeOfFlow "h" Work "work" Coefficient "c" Constant "k"
-    Position "x" CentreVelocity "x_dot" ComovingCentreVelocity "v_hat" GivenVelocity "v"
+    Position "x" CentreVelocity "x_dot" ComovingCentreVelocity "v_hat"
     Placement "phi" PlacementVelocity "phi_dot" FlatVelocity "velocity"
     InversePlacement "phi_inverse" AffineVelocity "omega" ComovingAffineVelocity "omega_hat"
     LinearMomentum "p" ComovingLinearMomentum "p_hat" CanonicalMomentum "pi"

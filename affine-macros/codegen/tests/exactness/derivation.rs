@@ -34,7 +34,7 @@ pub(crate) fn check(what: &str, model: &Model, kinetic: &Kinetic, state: &State,
     let motion = kinetic.motion(state).unwrap();
     let mut here = coordinates(kinetic, state);
     here.extend(coefficients.clone());
-    let mut moving = velocities(kinetic, state, model.translation == Some(Frame::Body));
+    let mut moving = velocities(kinetic, state);
     moving.extend(coefficients.clone());
     let (velocity, spin) = names(model.frame);
     let stem = |values: &Values, stem: &str| -> Values {

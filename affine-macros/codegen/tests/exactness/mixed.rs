@@ -157,9 +157,8 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
     let (what, kinetic, n) = (&sum.text, &sum.kinetic, model.dim);
     let motion = kinetic.motion(state).unwrap();
     let here = coordinates(kinetic, state);
-    let mut moving = velocities(kinetic, state, model.translation == Some(Frame::Body));
+    let mut moving = velocities(kinetic, state);
     put(&mut moving, "phi", &state.phi);
-    put(&mut moving, "x_dot", &motion.rate().x);
     let (velocity, spin) = names(model.frame);
     agree(what, &run(&model.point.velocity, &here), velocity, &stem(&moving, velocity), n * n);
     agree(

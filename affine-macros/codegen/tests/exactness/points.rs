@@ -78,12 +78,14 @@ pub(crate) fn rates(motion: &Motion) -> Values {
     collect(&motion.rate().x, &motion.rate().phi, |observable| motion.bracket(observable).unwrap())
 }
 
-/// The velocities of all frames: `v` in the frame of the translation, `omega_hat`, `omega`, `phi_dot`.
-pub(crate) fn velocities(kinetic: &Kinetic, state: &State, comoving: bool) -> Values {
+/// What is known of a placement that moves: the velocities of all frames, and `phi^-1`.
+pub(crate) fn velocities(kinetic: &Kinetic, state: &State) -> Values {
     let (x_dot, phi_dot) = kinetic.velocity(state).unwrap();
     let inverse = state.phi.inverse().unwrap();
     let mut values = Values::new();
-    put(&mut values, "v", &if comoving { &inverse * &x_dot } else { x_dot });
+    put(&mut values, "v_hat", &(&inverse * &x_dot));
+    put(&mut values, "x_dot", &x_dot);
+    put(&mut values, "phi_inverse", &inverse);
     put(&mut values, "omega_hat", &(&inverse * &phi_dot));
     put(&mut values, "omega", &(&phi_dot * &inverse));
     put(&mut values, "phi_dot", &phi_dot);
