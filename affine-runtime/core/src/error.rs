@@ -80,6 +80,12 @@ pub enum Error {
         /// Name of the model.
         model: &'static str,
     },
+    /// Two columns of a table have one name, by which files and programs ask for them.
+    #[cfg(feature = "std")]
+    RepeatedColumn {
+        /// The name.
+        name: String,
+    },
     /// A file cannot be written.
     #[cfg(feature = "std")]
     File {
@@ -193,6 +199,12 @@ impl fmt::Display for Error {
                 f,
                 "no reference for {model}: it has no closed form from this start, and its equations in double-double \
                  arithmetic did not reach the end in 100000 steps of order 20; give the phase point at the end with `.against(point)`, or a shorter interval"
+            ),
+            #[cfg(feature = "std")]
+            Error::RepeatedColumn { name } => write!(
+                f,
+                "two columns of the table are called `{name}`: give each a name of its own; a table of bodies has `body`, `t` and the \
+                 numbers of the phase point, such as `phi11`, besides the names that it is given"
             ),
             #[cfg(feature = "std")]
             Error::File { path, kind } => {
