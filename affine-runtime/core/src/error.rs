@@ -207,6 +207,13 @@ impl fmt::Display for Error {
                  numbers of the phase point, such as `phi11`, besides the names that it is given"
             ),
             #[cfg(feature = "std")]
+            Error::File { path, kind: std::io::ErrorKind::InvalidData } => write!(
+                f,
+                "cannot write {}: the format does not hold it; glTF has numbers of single precision, where a unit of time is a second, \
+                 shapes with points, and at most 4 GiB: choose other units, another shape or fewer outputs",
+                path.display()
+            ),
+            #[cfg(feature = "std")]
             Error::File { path, kind } => {
                 write!(
                     f,

@@ -10,7 +10,7 @@ use super::field::{
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
 use super::newton::{Equations, FLOOR, Solution, solve};
-use crate::model::Model;
+use crate::model::{Group, Model, Quantity};
 use crate::state::Phase;
 
 /// Singular values at a solution that are none, relative to the largest.
@@ -23,6 +23,17 @@ pub enum Condition {
     Velocity(usize, f64),
     /// The value of its momentum map.
     MomentumMap(usize, f64),
+}
+
+impl Condition {
+    /// Checks that it is one of so many generators.
+    fn assert_among(&self, generators: usize) -> Result<(), AnalysisError> {
+        let (Self::Velocity(generator, value) | Self::MomentumMap(generator, value)) = *self;
+        match generator < generators && value.is_finite() {
+            true => Ok(()),
+            false => Err(AnalysisError::Condition { generator, generators, value }),
+        }
+    }
 }
 
 /// A point of rest, or one through which the motion is `exp(t zeta)`.
@@ -97,6 +108,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     let basis = symmetries::<N, M>();
     let generators = &generators.iter().map(confined::<N, M>).collect::<Vec<_>>();
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
+    conditions.iter().try_for_each(|condition| condition.assert_among(generators.len()))?;
     let z = vector(&model.flatten(guess));
     if depends_on_time(model, &z) {
         return Err(AnalysisError::DependsOnTime);
@@ -177,7 +189,38 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
             }
         }
         let scale = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
-        Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE) })
+        let rounding = self.rounding(&jacobian, (unknowns, &values));
+        Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE), rounding })
+    }
+
+    /// What each value is a difference of. Places and momenta may be in any units: how large momenta are that are not zero
+    /// follows from the places, the masses and the stiffnesses.
+    fn rounding(&self, jacobian: &Dense, (unknowns, values): (&Column, &Column)) -> Column {
+        let is_place = |group: &Group| matches!(group.quantity, Quantity::Position | Quantity::Placement);
+        let places: Vec<bool> =
+            M::DESCRIPTION.full.iter().flat_map(|group| vec![is_place(group); group.len]).collect();
+        let of = |kind: bool| (0..places.len()).filter(|k| places[*k] == kind).collect::<Vec<_>>();
+        let kinds = [of(true), of(false)];
+        let block = |rows: usize, columns: usize| {
+            jacobian.select_rows(&kinds[rows]).select_columns(&kinds[columns]).norm()
+        };
+        let (by_mass, stiffness) = (block(0, 1), block(1, 0));
+        let (mut momentum, mut rate) = (1.0, 1.0);
+        if by_mass > 0.0 && stiffness > 0.0 {
+            (momentum, rate) = ((stiffness / by_mass).sqrt(), stiffness.sqrt() * by_mass.sqrt());
+        }
+        let [own_places, own_momenta] = kinds.each_ref().map(|kind| unknowns.select_rows(kind).norm());
+        let sizes = unknowns.map_with_location(|k, _, own| match places.get(k) {
+            Some(true) => own_places.max(own_momenta / momentum),
+            Some(false) => own_momenta.max(own_places * momentum),
+            None => own.abs().max(rate),
+        });
+        let mut sizes = values.abs() + jacobian.abs() * sizes;
+        for kind in &kinds {
+            let size = sizes.select_rows(kind).norm();
+            kind.iter().for_each(|k| sizes[*k] = size);
+        }
+        sizes
     }
 
     pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
