@@ -4,6 +4,8 @@
 mod setting;
 #[cfg(feature = "std")]
 mod stop;
+#[cfg(feature = "std")]
+mod written;
 
 use core::fmt;
 
@@ -201,26 +203,9 @@ impl fmt::Display for Error {
                  arithmetic did not reach the end in 100000 steps of order 20; give the phase point at the end with `.against(point)`, or a shorter interval"
             ),
             #[cfg(feature = "std")]
-            Error::RepeatedColumn { name } => write!(
-                f,
-                "two columns of the table are called `{name}`: give each a name of its own; a table of bodies has `body`, `t` and the \
-                 numbers of the phase point, such as `phi11`, besides the names that it is given"
-            ),
+            Error::RepeatedColumn { name } => written::repeated(f, name),
             #[cfg(feature = "std")]
-            Error::File { path, kind: std::io::ErrorKind::InvalidData } => write!(
-                f,
-                "cannot write {}: the format does not hold it; glTF has numbers of single precision, where a unit of time is a second, \
-                 shapes with points, and at most 4 GiB: choose other units, another shape or fewer outputs",
-                path.display()
-            ),
-            #[cfg(feature = "std")]
-            Error::File { path, kind } => {
-                write!(
-                    f,
-                    "cannot write {}: {kind}; check the folder, its permissions and its space",
-                    path.display()
-                )
-            }
+            Error::File { path, kind } => written::unwritten(f, path, *kind),
         }
     }
 }

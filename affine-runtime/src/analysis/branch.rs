@@ -201,7 +201,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
             self.problem(&model, &conditions).values(&own)
         };
         let (model, conditions) = (self.family)(parameter).ok()?;
-        let Equations { values, jacobian, scale, rounding } =
+        let Equations { values, jacobian, size, scale } =
             self.problem(&model, &conditions).equations(&own)?;
         // The family may end next to a point.
         let slope = match (shifted(parameter + shift), shifted(parameter - shift)) {
@@ -212,7 +212,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         };
         let mut jacobian = jacobian.insert_column(last, 0.0);
         jacobian.set_column(last, &slope);
-        Some(Equations { values, jacobian, scale, rounding })
+        Some(Equations { values, jacobian, size, scale })
     }
 
     /// The point of the branch in the plane at a distance along a direction.
@@ -223,13 +223,13 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         (distance, floor): (f64, f64),
     ) -> Result<Solution, AnalysisError> {
         solve(from + direction * distance, floor, |unknowns| {
-            let Equations { values, jacobian, scale, rounding } = self.equations(unknowns)?;
+            let Equations { values, jacobian, size, scale } = self.equations(unknowns)?;
             let rows = values.len();
             let (mut values, mut jacobian) = (values.insert_row(rows, 0.0), jacobian.insert_row(rows, 0.0));
             values[rows] = direction.dot(&(unknowns - from)) - distance;
             jacobian.set_row(rows, &direction.transpose());
-            let rounding = rounding.insert_row(rows, unknowns.norm() + distance.abs());
-            Some(Equations { values, jacobian, scale, rounding })
+            let scale = scale.insert_row(rows, unknowns.norm() + distance.abs());
+            Some(Equations { values, jacobian, size, scale })
         })
     }
 

@@ -2,14 +2,13 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{DMatrix, DVector, Schur};
+use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{full, normals, symplectic_form, vector};
 use super::generator::place;
 use super::jacobian::JacobianMatrix;
-use super::linear::{MOST_SWEEPS, RANK, from_columns, kernel};
+use super::linear::{RANK, from_columns, kernel};
 use crate::dual::{Dual, fixed};
 use crate::integrate::RungeKutta8;
 use crate::model::{Group, Model, Quantity};
@@ -244,15 +243,6 @@ pub struct LyapunovSpectrum {
     pub errors: Vec<f64>,
 }
 
-/// The largest magnitude of an eigenvalue; 0 where there is none.
-fn fastest(motion: &DMatrix<f64>) -> f64 {
-    let mut balanced = motion.clone();
-    let _ = balance_parlett_reinsch(&mut balanced);
-    let schur = Schur::try_new(balanced, f64::EPSILON, MOST_SWEEPS);
-    let values = schur.map(|schur| schur.complex_eigenvalues());
-    values.map_or(0.0, |values| values.iter().map(|value| value.norm()).fold(0.0, f64::max))
-}
-
 /// The Lyapunov spectrum of a motion, by columns that are made orthonormal again and again (G. Benettin et al., Meccanica 15
 /// (1980) 9). On motions that are not bounded it depends on the layout, see [`Description::full`](crate::model::Description::full).
 ///
@@ -273,8 +263,8 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
     let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
     let slopes = flow.jacobian.at(0.0, flow.start.as_slice());
-    // Once in a turn of what is fastest at the start, in whatever units of time.
-    let rounds = (time.abs() * fastest(&slopes) / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
+    // Once in a turn of what is fastest at the start, in whatever units of time: of squares masses and lengths cancel.
+    let rounds = (time.abs() * (&slopes * &slopes).norm().sqrt() / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
     let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {

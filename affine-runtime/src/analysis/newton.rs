@@ -20,15 +20,15 @@ pub(super) struct Equations {
     pub(super) values: Column,
     pub(super) jacobian: Dense,
     /// Size of what the values are differences of.
-    pub(super) scale: f64,
-    /// The same of each of them.
-    pub(super) rounding: Column,
+    pub(super) size: f64,
+    /// That of each of them.
+    pub(super) scale: Column,
 }
 
 impl Equations {
     /// Nothing but rounding is left.
     fn are_solved(&self) -> bool {
-        let mut values = self.values.iter().zip(&self.rounding);
+        let mut values = self.values.iter().zip(&self.scale);
         values.all(|(value, size)| size.is_finite() && value.abs() <= ROUNDINGS * f64::EPSILON * size)
     }
 }
@@ -45,11 +45,11 @@ pub(super) struct Solution {
 /// nearest solutions wherever the residual measures the distance from them, isolated or not (N. Yamashita, M. Fukushima,
 /// Computing Suppl. 15 (2001) 239).
 fn step(equations: &Equations, floor: f64) -> Result<Column, AnalysisError> {
-    let Equations { values, jacobian, scale, .. } = equations;
+    let Equations { values, jacobian, size, .. } = equations;
     let svd = decomposed(jacobian.clone()).ok_or(AnalysisError::NoDecomposition)?;
     let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return Err(AnalysisError::NoDecomposition) };
     let largest = svd.singular_values.max();
-    let damping = (values.norm() / scale).clamp(floor, 1.0) * largest;
+    let damping = (values.norm() / size).clamp(floor, 1.0) * largest;
     let along = u.tr_mul(values);
     let weighted = DVector::from_fn(along.len(), |k, _| {
         let singular = svd.singular_values[k];

@@ -10,7 +10,7 @@ use super::field::{
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
 use super::newton::{Equations, FLOOR, Solution, solve};
-use crate::model::{Group, Model, Quantity};
+use crate::model::{Model, Quantity};
 use crate::state::Phase;
 
 /// Singular values at a solution that are none, relative to the largest.
@@ -188,39 +188,36 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
                 }
             }
         }
-        let scale = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
-        let rounding = self.rounding(&jacobian, (unknowns, &values));
-        Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE), rounding })
+        let size = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
+        let scale = self.scale(&jacobian, (unknowns, &values));
+        Some(Equations { values, jacobian, size: size.max(f64::MIN_POSITIVE), scale })
     }
 
     /// What each value is a difference of. Places and momenta may be in any units: how large momenta are that are not zero
     /// follows from the places, the masses and the stiffnesses.
-    fn rounding(&self, jacobian: &Dense, (unknowns, values): (&Column, &Column)) -> Column {
-        let is_place = |group: &Group| matches!(group.quantity, Quantity::Position | Quantity::Placement);
-        let places: Vec<bool> =
-            M::DESCRIPTION.full.iter().flat_map(|group| vec![is_place(group); group.len]).collect();
-        let of = |kind: bool| (0..places.len()).filter(|k| places[*k] == kind).collect::<Vec<_>>();
-        let kinds = [of(true), of(false)];
-        let block = |rows: usize, columns: usize| {
-            jacobian.select_rows(&kinds[rows]).select_columns(&kinds[columns]).norm()
-        };
-        let (by_mass, stiffness) = (block(0, 1), block(1, 0));
-        let (mut momentum, mut rate) = (1.0, 1.0);
-        if by_mass > 0.0 && stiffness > 0.0 {
-            (momentum, rate) = ((stiffness / by_mass).sqrt(), stiffness.sqrt() * by_mass.sqrt());
-        }
-        let [own_places, own_momenta] = kinds.each_ref().map(|kind| unknowns.select_rows(kind).norm());
-        let sizes = unknowns.map_with_location(|k, _, own| match places.get(k) {
-            Some(true) => own_places.max(own_momenta / momentum),
-            Some(false) => own_momenta.max(own_places * momentum),
-            None => own.abs().max(rate),
+    fn scale(&self, jacobian: &Dense, (unknowns, values): (&Column, &Column)) -> Column {
+        let is_place = |quantity| matches!(quantity, Quantity::Position | Quantity::Placement);
+        let groups = M::DESCRIPTION.full.iter();
+        let places: Vec<bool> = groups.flat_map(|group| vec![is_place(group.quantity); group.len]).collect();
+        let kinds =
+            [true, false].map(|kind| (0..places.len()).filter(|k| places[*k] == kind).collect::<Vec<_>>());
+        let [by_mass, stiffness] = [(0, 1), (1, 0)]
+            .map(|(rows, columns)| jacobian.select_rows(&kinds[rows]).select_columns(&kinds[columns]).norm());
+        let is_held = by_mass > 0.0 && stiffness > 0.0;
+        let momentum = if is_held { (stiffness / by_mass).sqrt() } else { 1.0 };
+        let rate = if is_held { stiffness.sqrt() * by_mass.sqrt() } else { 1.0 };
+        let own = kinds.each_ref().map(|kind| unknowns.select_rows(kind).norm());
+        let sizes = unknowns.map_with_location(|k, _, value| match places.get(k) {
+            Some(true) => own[0].max(own[1] / momentum),
+            Some(false) => own[1].max(own[0] * momentum),
+            None => value.abs().max(rate),
         });
-        let mut sizes = values.abs() + jacobian.abs() * sizes;
+        let mut scale = values.abs() + jacobian.abs() * sizes;
         for kind in &kinds {
-            let size = sizes.select_rows(kind).norm();
-            kind.iter().for_each(|k| sizes[*k] = size);
+            let size = scale.select_rows(kind).norm();
+            kind.iter().for_each(|k| scale[*k] = size);
         }
-        sizes
+        scale
     }
 
     pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
