@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let section = || vec![Event::determinant(1.0).rising().named("section")];
     let ensemble = Ensemble::new(&Disc, starts.iter().copied()).until(T_END).tolerance(TOLERANCE);
     let (mut dots, mut points, mut worst) = (String::new(), 0, 0.0_f64);
-    let (mut stopped, mut table) = (0, Table::of_bodies::<2, Disc>(&["x", "rate"]));
+    let (mut stopped, mut table) = (0, Table::of_bodies::<2, Disc>(&["x", "rate"])?);
     ensemble.events(section).progress_bar().fold(
         |_, _| (),
         |(), _, _| (),

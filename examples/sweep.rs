@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // All numbers in the ranges are sound: what is not would be missing, and the count below would show it.
     let bodies = bodies.filter_map(affine_runtime::Result::ok);
     let (mut boundary, mut bound, mut wrong, mut near) = (Vec::new(), 0, 0, 0);
-    let mut at_boundary = Table::of_bodies::<2, PreparedBound>(&["a", "depth"]);
+    let mut at_boundary = Table::of_bodies::<2, PreparedBound>(&["a", "depth"])?;
     let begin = Instant::now();
     let mut last = 0.0;
     Ensemble::of(bodies).until(T_END).tolerance(1e-6).progress_bar().fold(

@@ -21,7 +21,7 @@ use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
 use crate::inner::LogDeterminant;
-use crate::model::{Model, Quantity};
+use crate::model::{Model, Quantity, Velocity};
 use crate::numbers::numbers;
 use crate::state::Phase;
 
@@ -85,8 +85,10 @@ impl<const N: usize, P: Phase<N>> Distribution<P> for Gaussian<N, P> {
                 place += 1;
                 number
             });
-            // No number is ever in the way of a placement that stays, and half of all matrices have one at least.
-            if self.deviations[0] == 0.0 || LogDeterminant::of(drawn.phi()).is_positive() {
+            // Half of all matrices are placements, and of numbers that are none there never is one: a run that starts there says so.
+            let phi = drawn.phi();
+            let is_open = self.deviations[0] != 0.0 && phi.iter().all(|entry| entry.is_finite());
+            if !is_open || LogDeterminant::of(phi).is_positive() {
                 return drawn;
             }
         }
@@ -121,18 +123,20 @@ impl<const N: usize, P: Phase<N>> MomentumLevel<N, P> {
         const { assert!(M::DESCRIPTION.constraint.is_none(), "momenta under a constraint are no vectors") }
         let moves = M::DESCRIPTION.full.iter().any(|group| group.quantity == Quantity::Position);
         let momenta = N * N + if moves { N } else { 0 };
-        let of = |momenta: &SVector<f64, MOMENTA>| model.hamiltonian(t, &with_momenta(&point, momenta));
+        let with = |momenta: &SVector<f64, MOMENTA>| with_momenta(&point, momenta);
+        let of = |momenta: &SVector<f64, MOMENTA>| model.hamiltonian(t, &with(momenta));
         let rest = of(&SVector::zeros());
-        let unit = |i: usize| SVector::<f64, MOMENTA>::from_fn(|k, _| f64::from(u8::from(i == k)));
-        let single: Vec<f64> = (0..momenta).map(|i| of(&unit(i)) - rest).collect();
+        let unit = |i: usize| with(&SVector::from_fn(|k, _| f64::from(u8::from(i == k))));
+        let units: Vec<P> = (0..momenta).map(unit).collect();
+        // What momenta give for the velocities of others: whatever their units, and however large the potential is.
         let mut form = SMatrix::<f64, MOMENTA, MOMENTA>::identity();
-        for i in 0..momenta {
-            form[(i, i)] = 2.0 * single[i];
-            for k in 0..i {
-                form[(i, k)] = of(&(unit(i) + unit(k))) - rest - single[i] - single[k];
-                form[(k, i)] = form[(i, k)];
+        for (i, one) in units.iter().enumerate() {
+            let Velocity { x_dot, phi_dot } = model.velocity(one);
+            for (k, other) in units.iter().enumerate() {
+                form[(i, k)] = (other.pi().0.0 * phi_dot).trace() + other.p().dot(&x_dot);
             }
         }
+        let form = (form + form.transpose()) * 0.5;
         let free = energy - rest;
         let root =
             form.cholesky().filter(|_| free >= 0.0)?.l().transpose().try_inverse()? * (2.0 * free).sqrt();

@@ -35,7 +35,8 @@ pub trait Tangent<const N: usize>: Model<N> {
 /// ```
 ///
 /// The reduced state and its change are integrated together, by [`RungeKutta8`] with the error of both below the
-/// tolerance; reduction and expansion are differentiated by dual numbers, what the trajectory conserves included.
+/// tolerance; reduction and expansion are differentiated by dual numbers, what the trajectory conserves included. The motion is
+/// followed as far as its equations have values, through `det phi = 0` too, where a [`Simulation`](crate::Simulation) stops.
 /// Under a constraint a direction is one of the group: it holds the slopes of a curve of points on it, and changes do.
 /// Directions and changes are plain arrays in the layout of [`Description::full`](crate::model::Description::full), like
 /// [`Model::flatten`] gives points.

@@ -139,6 +139,23 @@ fn quadratic_invariants_are_kept_to_rounding() {
     }
 }
 
+/// Where the force vanishes at the start, the first guess of the placement is right: placement and momentum change in turn.
+#[test]
+fn a_start_without_forces_is_solved_to_rounding() {
+    for tableau in METHODS {
+        for step in [0.2, 0.1, 0.05, 0.02] {
+            let there = run(pendulum, tableau, (0.0, [0.0, 1.0]), 1.0, step);
+            let back = run(pendulum, tableau, (1.0, *there.y()), 0.0, step);
+            let (residual, error) = (there.residual().unwrap(), distance(back.y(), &[0.0, 1.0]));
+            assert!(
+                residual < 1e-15 && error < 1e-14,
+                "{} stages, {step}: {residual:e}, {error:e}",
+                tableau.stages()
+            );
+        }
+    }
+}
+
 #[test]
 fn steps_are_symplectic() {
     // det of the derivative of the flow in one degree of freedom, by central differences of its own long steps.
@@ -317,8 +334,8 @@ fn evaluations_are_counted() {
     };
     // Fixed-point: one at the start, then stages times iterations.
     let of = |tableau, step| run(rigid_body, tableau, (0.0, SPIN), 20.0, step).statistics();
-    is_counted(of(&Tableau::TWO, 0.1), (200, 3389));
-    is_counted(of(&Tableau::THREE, 0.1), (200, 4357));
+    is_counted(of(&Tableau::TWO, 0.1), (200, 3391));
+    is_counted(of(&Tableau::THREE, 0.1), (200, 4360));
     is_counted(of(&Tableau::THREE, 0.4), (50, 1624));
     is_counted(of(&Tableau::FOUR, 0.4), (50, 1877));
     is_counted(of(&Tableau::SIX, 0.4), (50, 2485));

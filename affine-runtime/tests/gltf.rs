@@ -305,6 +305,8 @@ fn what_no_file_can_hold_is_refused() {
         Shape::points_alone([Vector::<3>::new(1e39, 0.0, 0.0)]),
     ] {
         assert_eq!(run.to_glb(&shape).unwrap_err().kind(), std::io::ErrorKind::InvalidData);
+        let error = run.save_glb("no such folder/body.glb", &shape).unwrap_err().to_string();
+        assert!(error.contains("the format does not hold it") && !error.contains("permissions"), "{error}");
     }
     let path = std::env::temp_dir().join(format!("affine-{}.glb", std::process::id()));
     run.save_glb(&path, &Shape::points_alone([point])).unwrap();

@@ -1,5 +1,6 @@
 //! Branches with folds, bifurcations and collisions that are known.
 
+use affine_runtime::Error;
 use affine_runtime::analysis::{
     AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
     branch_diagram, lyapunov_spectrum,
@@ -184,4 +185,29 @@ fn steps_and_starts_that_lead_nowhere_are_refused() {
         let refused = lyapunov_spectrum(&rest, &start, time, 1e-9);
         assert!(matches!(refused, Err(AnalysisError::Time(_))), "{time}");
     }
+}
+
+/// A branch that ends within the range keeps its points, and says what the family says there.
+#[test]
+fn a_family_that_ends_leaves_the_branch_up_to_there() {
+    let family = |light: f64| {
+        let disc = Disc { i: 1.0 - light, kappa: 4.0, c1: 0.3 }.prepare()?;
+        Ok((disc, vec![Condition::Velocity(0, 0.3)]))
+    };
+    let (disc, _) = family(0.0).unwrap();
+    let guess = disc.at_velocity(Matrix::<2>::identity(), turning(0.3)).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let branch = Continuation::new(&turn, (0.0, 2.0), 0.1, family).run(&guess, 0.0).unwrap();
+    assert!(matches!(branch.ended, Some(AnalysisError::Model(Error::IllPosed(_)))), "{branch}");
+    let last = branch.points.last().unwrap().parameter;
+    assert!(branch.points.len() > 5 && (0.99..1.0).contains(&last), "{last}");
+    assert!(branch.to_string().contains("\nended: the model is ill-posed"), "{branch}");
+    // A range that ends before is left.
+    let within = Continuation::new(&turn, (0.0, 0.5), 0.1, family).run(&guess, 0.0).unwrap();
+    assert_eq!(within.ended, None);
+    // The family may begin with the range.
+    let from =
+        |light: f64| if light < 0.0 { Err(Error::Placement { determinant: light }) } else { family(light) };
+    let same = Continuation::new(&turn, (0.0, 0.5), 0.1, from).run(&guess, 0.0).unwrap();
+    assert_eq!((same.points.len(), same.ended), (within.points.len(), None));
 }

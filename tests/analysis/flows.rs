@@ -63,6 +63,22 @@ fn assert_integrable<const N: usize, M: Model<N>>(model: &M, start: &M::Point<f6
     }
 }
 
+/// The unit of time makes no difference: neither for what is called growth, nor for how long it takes to find.
+#[test]
+fn exponents_are_those_of_any_unit_of_time() {
+    for (slow, times) in [(1e-8, &[0.05, 1.0][..]), (1.0, &[0.05, 0.5]), (1e8, &[0.05, 60.0])] {
+        let stiffness = 1.0 / (slow * slow);
+        let disc = Disc { i: 1.0, kappa: 4.0 * stiffness, c1: 0.3 * stiffness }.prepare().unwrap();
+        let start = disc.at_velocity(Matrix::<2>::new(1.1, 0.0, 0.0, 1.1), turning(0.3 / slow)).unwrap();
+        for &time in times {
+            let spectrum = lyapunov_spectrum(&disc, &start, time * slow, 1e-9).unwrap();
+            for (exponent, error) in spectrum.exponents.iter().zip(&spectrum.errors) {
+                assert!(exponent.abs() <= *error, "{slow:e}, {time}: {spectrum:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn exponents_of_integrable_motions_vanish() {
     let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();

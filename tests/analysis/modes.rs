@@ -5,6 +5,8 @@ use affine_runtime::model::Model;
 use affine_runtime::nalgebra::Rotation3;
 use affine_runtime::prelude::*;
 
+use crate::models::Disc;
+
 fn modes_near<const N: usize, M: Model<N>>(model: &M, guess: &M::Point<f64>) -> Modes<N> {
     equilibrium(model, guess).unwrap().modes(model).unwrap()
 }
@@ -65,4 +67,19 @@ fn what_moves_does_not_vibrate_about_rest() {
     let guess = Damped.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
     let rest = equilibrium(&Damped, &guess).unwrap();
     assert_eq!(rest.modes(&Damped).unwrap_err(), AnalysisError::NoVibrations);
+}
+
+/// Frequencies are printed to all their digits, in any unit of time.
+#[test]
+fn frequencies_are_printed_in_any_units() {
+    for stiffness in [1e-12, 1.0, 1e12] {
+        let disc = Disc { i: 1.0, kappa: 4.0 * stiffness, c1: 0.3 * stiffness }.prepare().unwrap();
+        let rest = disc.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+        let modes = modes_near(&disc, &rest);
+        let text = modes.to_string();
+        let printed =
+            text.lines().nth(1).and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+        let off = printed.unwrap() / modes.modes[0].frequency() - 1.0;
+        assert!(off.abs() < 1e-14, "{text}");
+    }
 }

@@ -6,7 +6,7 @@ use affine_runtime::analysis::{
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
 
-use crate::models::{Geodesic, Soft, unrest};
+use crate::models::{Disc, Geodesic, Soft, turning, unrest};
 use crate::rows::assert_paired;
 
 #[test]
@@ -159,4 +159,46 @@ fn failures_say_what_is_wrong() {
     let guess = Falling.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
     let error = equilibrium(&Falling, &guess).unwrap_err();
     assert!(matches!(error, AnalysisError::NoConvergence { .. }), "{error}");
+}
+
+/// Conditions count the generators that are free, and ask for numbers.
+#[test]
+fn conditions_that_ask_nothing_are_refused() {
+    let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();
+    let guess = disc.at_velocity(Matrix::<2>::identity(), turning(0.3)).unwrap();
+    let turn = Generator::rotation(1, 2);
+    for (generators, condition) in [
+        (&[turn][..], Condition::Velocity(1, 0.3)),
+        (&[turn], Condition::MomentumMap(7, 0.3)),
+        (&[], Condition::Velocity(0, 0.3)),
+        (&[turn], Condition::Velocity(0, f64::NAN)),
+        (&[turn, turn], Condition::MomentumMap(1, f64::INFINITY)),
+    ] {
+        let error = relative_equilibrium(&disc, &guess, generators, &[condition]).unwrap_err();
+        let count = generators.len();
+        let is_named = matches!(error, AnalysisError::Condition { generators, .. } if generators == count);
+        assert!(is_named, "{condition:?}: {error}");
+    }
+}
+
+/// Forces that are small beside the velocities of momenta of order 1 are not taken for rounding: there is the equilibrium, or none.
+#[test]
+fn a_guess_is_not_taken_for_rest_in_other_units() {
+    for mass in [1e-60, 1e-30, 1e-15, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e15, 1e30] {
+        for stiffness in [1e-30, 1e-6, 1.0, 1e6, 1e30] {
+            let disc = Disc { i: mass, kappa: 4.0 * stiffness, c1: 0.3 * stiffness }.prepare().unwrap();
+            let guess = disc.at_velocity(Matrix::<2>::identity() * 1.1, Matrix::<2>::zeros()).unwrap();
+            match equilibrium(&disc, &guess) {
+                Ok(rest) => {
+                    let off = (rest.point.phi() - Matrix::<2>::identity()).norm();
+                    assert!(off < 1e-10, "{mass:e}, {stiffness:e}: {off:e}");
+                }
+                Err(error) => {
+                    assert!(matches!(error, AnalysisError::NoConvergence { .. }), "{error}");
+                    let balance = (mass * stiffness).sqrt();
+                    assert!(!(1e-3..=1e3).contains(&balance), "{mass:e}, {stiffness:e}: {error}");
+                }
+            }
+        }
+    }
 }

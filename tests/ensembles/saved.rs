@@ -151,6 +151,33 @@ fn a_folder_of_another_run_is_refused() {
     fs::remove_file(&file.0).unwrap();
 }
 
+/// A body whose run an event ends is written where and when it ended, alone or in lanes.
+#[test]
+fn ends_at_events_are_written_with_their_times() {
+    let folder = Folder::new("events");
+    let reached = || vec![Event::new("time", |t, _| t - 0.15).stop()];
+    let starts = Unprotected.samples(9, 82);
+    let bodies = || Ensemble::new(&Unprotected, starts.clone()).until(0.3).events(reached);
+    let mut times = Vec::new();
+    bodies().each(|body| times.push(body.t)).unwrap();
+    assert!(times.iter().all(|t| (t - 0.15).abs() < 1e-15), "{times:?}");
+    bodies().save(&folder.0, (Format::Csv, 9), &[], |_| Vec::new()).unwrap();
+    let text = String::from_utf8(folder.files()["chunk-000000000000.csv"].clone()).unwrap();
+    let written = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+    assert_eq!(written.collect::<Vec<_>>(), times);
+    // Those that collapse before have the time of the last good phase point.
+    ensemble().each(|body| assert_eq!(body.t, body.end.map_or_else(|stop| stop.t, |_| 0.6))).unwrap();
+}
+
+/// What would not run leaves nothing behind that is in the way of what does.
+#[test]
+fn settings_are_looked_at_before_the_folder() {
+    let folder = Folder::new("refused");
+    assert!(save(ensemble().tolerance(0.0), &folder.0).is_err());
+    assert!(save(ensemble().shard(2, 2), &folder.0).is_err() && !folder.0.exists());
+    save(ensemble().numbers(0..2), &folder.0).unwrap();
+}
+
 /// The same rows in every format, with what is known of all of them.
 #[test]
 fn chunks_are_written_in_any_format() {
@@ -190,5 +217,8 @@ fn chunks_are_written_in_any_format() {
             npyz::NpyFile::new(array.as_slice()).unwrap().into_vec::<f64>().unwrap().len()
         })
         .sum();
-    assert_eq!(archives * Table::of_bodies::<2, Unprotected>(&["half"]).names().len(), numbers.len());
+    assert_eq!(
+        archives * Table::of_bodies::<2, Unprotected>(&["half"]).unwrap().names().len(),
+        numbers.len()
+    );
 }

@@ -1,6 +1,7 @@
 //! Starts that are drawn.
 
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
 use affine_runtime::starts::{Gaussian, MomentumLevel, latin_hypercube};
 use rand::SeedableRng;
 use rand::distr::Distribution;
@@ -83,6 +84,53 @@ fn starts_of_a_level_of_energy_are_spread_evenly() {
     let level = MomentumLevel::of_energy(&DrunkMissile, (0.0, point), energy).unwrap();
     for drawn in level.sample_iter(random()).take(100) {
         assert!((DrunkMissile.hamiltonian(0.0, &drawn) / energy - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A heavy centre beside a light deformation, under a potential that is large where nothing moves.
+#[affine_model(
+    dim = 2,
+    kinetic(body_inertia = 1, casimir2 = 0.2, body_translation = m),
+    potential = offset + 0.1*q^2,
+    emit(lanes),
+)]
+struct Offset {
+    m: f64,
+    offset: f64,
+}
+
+/// Neither the unit of mass nor the zero of energies makes a difference: a twelfth of the kinetic energy, or a sixth in the plane,
+/// is in each direction.
+#[test]
+fn a_level_of_energy_is_found_in_any_units() {
+    for (m, offset) in [(2.0, 0.0), (1e-200, 0.0), (1e100, 0.0), (1e200, 0.0), (2.0, 1e9)] {
+        let model = Offset { m, offset }.prepare().unwrap();
+        let zero = Vector::<2>::zeros();
+        let rest = model.at_velocity(zero, Matrix::<2>::identity(), zero, Matrix::<2>::zeros()).unwrap();
+        let level = MomentumLevel::of_energy(&model, (0.0, rest), offset + 3.0).unwrap();
+        let mut of_centre = 0.0;
+        for drawn in level.sample_iter(random()).take(DRAWN) {
+            let velocity = model.velocity(&drawn);
+            let part = 0.5 * drawn.p().dot(&velocity.x_dot);
+            let whole = part + 0.5 * (drawn.pi().0.0 * velocity.phi_dot).trace();
+            assert!((whole - 3.0).abs() < 1e-13, "{m:e}, {offset:e}: {whole}");
+            of_centre += part;
+        }
+        assert!((of_centre / DRAWN as f64 - 1.0).abs() < 2.0 * MEAN, "{m:e}: {of_centre}");
+    }
+}
+
+/// What is drawn with a deviation that is no number has no numbers, and its run says so.
+#[test]
+fn a_deviation_that_is_no_number_is_found_by_the_run() {
+    let point = Unprotected.samples(1, 97)[0];
+    for deviation in [f64::NAN, f64::INFINITY] {
+        let starts = Gaussian::around(&Unprotected, point).placement(deviation).sample_iter(random()).take(3);
+        let ends = Ensemble::new(&Unprotected, starts).until(0.1).run().unwrap();
+        assert!(
+            ends.iter().all(|end| end.as_ref().is_err_and(|stop| stop.reason == Reason::NotFinite)),
+            "{ends:?}"
+        );
     }
 }
 

@@ -132,7 +132,7 @@ fn parquet_reads_back_as_the_same_numbers() {
 #[test]
 fn a_table_without_rows_is_written_as_well() {
     let mut bytes = Vec::new();
-    let table = Table::of_bodies::<2, Unprotected>(&["a"]);
+    let table = Table::of_bodies::<2, Unprotected>(&["a"]).unwrap();
     table.parquet(&mut bytes).unwrap();
     let file = SerializedFileReader::new(Bytes::from(bytes)).unwrap();
     let schema = file.metadata().file_metadata().schema_descr();
@@ -143,10 +143,36 @@ fn a_table_without_rows_is_written_as_well() {
     );
 }
 
+/// Files and programs ask for a column by its name.
+#[test]
+fn a_name_that_two_columns_would_have_is_refused() {
+    for (names, repeated) in [
+        (&["a", "b", "a"][..], "a"),
+        (&["body"], "body"),
+        (&["t"], "t"),
+        (&["x1"], "x1"),
+        (&["phi22"], "phi22"),
+        (&["Pi12", "c"], "Pi12"),
+    ] {
+        let error = Table::of_bodies::<2, Unprotected>(names).unwrap_err();
+        let affine_runtime::Error::RepeatedColumn { name } = &error else { panic!("{error}") };
+        assert_eq!(name, repeated);
+        assert!(error.to_string().contains(&format!("`{repeated}`")), "{error}");
+        let folder = std::env::temp_dir().join(format!("affine-repeated-{}", std::process::id()));
+        let starts = Unprotected.samples(1, 76);
+        let save =
+            Ensemble::new(&Unprotected, starts)
+                .until(0.1)
+                .save(&folder, (Format::Csv, 8), names, |_| Vec::new());
+        assert_eq!(save.unwrap_err(), error);
+        assert!(!folder.exists(), "refused before anything is computed or written");
+    }
+}
+
 #[test]
 fn a_file_that_cannot_be_written_is_named() {
     let path = Path::new("no such folder/table.parquet");
-    let table = Table::of_bodies::<2, Unprotected>(&[]);
+    let table = Table::of_bodies::<2, Unprotected>(&[]).unwrap();
     for format in [Format::Csv, Format::Npz, Format::Parquet] {
         let error = table.save(path, format).unwrap_err();
         let affine_runtime::Error::File { path: named, kind } = error else { panic!("{error}") };
@@ -214,7 +240,7 @@ fn runs_stops_and_descriptions_are_written() {
 
 #[test]
 fn a_table_of_bodies_has_what_it_is_given() {
-    let mut table = Table::of_bodies::<2, Unprotected>(&["a", "b"]);
+    let mut table = Table::of_bodies::<2, Unprotected>(&["a", "b"]).unwrap();
     let point = Unprotected.samples(1, 76)[0];
     table.push::<2, Unprotected>(7, &[0.5, 2.0], 1.5, &point);
     table.push::<2, Unprotected>(8, &[0.25], 2.5, &point);

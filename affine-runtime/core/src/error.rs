@@ -4,6 +4,8 @@
 mod setting;
 #[cfg(feature = "std")]
 mod stop;
+#[cfg(feature = "std")]
+mod written;
 
 use core::fmt;
 
@@ -79,6 +81,12 @@ pub enum Error {
     NoReference {
         /// Name of the model.
         model: &'static str,
+    },
+    /// Two columns of a table have one name, by which files and programs ask for them.
+    #[cfg(feature = "std")]
+    RepeatedColumn {
+        /// The name.
+        name: String,
     },
     /// A file cannot be written.
     #[cfg(feature = "std")]
@@ -195,13 +203,9 @@ impl fmt::Display for Error {
                  arithmetic did not reach the end in 100000 steps of order 20; give the phase point at the end with `.against(point)`, or a shorter interval"
             ),
             #[cfg(feature = "std")]
-            Error::File { path, kind } => {
-                write!(
-                    f,
-                    "cannot write {}: {kind}; check the folder, its permissions and its space",
-                    path.display()
-                )
-            }
+            Error::RepeatedColumn { name } => written::repeated(f, name),
+            #[cfg(feature = "std")]
+            Error::File { path, kind } => written::unwritten(f, path, *kind),
         }
     }
 }

@@ -66,6 +66,9 @@ pub struct Branch<const N: usize, P> {
     pub points: Vec<BranchPoint<N, P>>,
     /// Special points, each located to rounding, in the same order.
     pub special: Vec<(Special, BranchPoint<N, P>)>,
+    /// Why there is no point after the last one, where the branch has not left the range: what the family says of the parameter
+    /// there, or that steps have become too short. `None` also after 2000 points.
+    pub ended: Option<AnalysisError>,
 }
 
 impl<const N: usize, P: Phase<N>> BranchPoint<N, P> {
@@ -108,12 +111,15 @@ impl<const N: usize, P: Phase<N>> Branch<N, P> {
     }
 }
 
-/// The special points, one a line.
+/// The special points, one a line, and why the branch has ended within the range.
 impl<const N: usize, P: Phase<N>> fmt::Display for Branch<N, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut lines = String::new();
         for (kind, point) in &self.special {
             write!(lines, "\n{kind:?} at {:.12}, stretches {:.9?}", point.parameter, point.stretches())?;
+        }
+        if let Some(reason) = &self.ended {
+            write!(lines, "\nended: {reason}")?;
         }
         write!(f, "{} points{lines}", self.points.len())
     }
@@ -138,7 +144,8 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         Self { family, generators: generators.iter().map(confined::<N, M>).collect(), step, range }
     }
 
-    /// The branch through the relative equilibrium that is nearest to a guess at a value of the parameter, towards larger values.
+    /// The branch through the relative equilibrium that is nearest to a guess at a value of the parameter, towards larger values:
+    /// as far as the range goes, or as the branch does, see [`Branch::ended`].
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -188,17 +195,24 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     fn equations(&self, unknowns: &Column) -> Option<Equations> {
         let last = unknowns.len() - 1;
         let (own, parameter) = (unknowns.rows(0, last).into_owned(), unknowns[last]);
-        let shift = SHIFT * (1.0 + parameter.abs());
-        let values = |parameter: f64| {
+        let shift = SHIFT * (1.0 + parameter.abs()).min(self.range.1 - self.range.0).max(f64::MIN_POSITIVE);
+        let shifted = |parameter: f64| {
             let (model, conditions) = (self.family)(parameter).ok()?;
             self.problem(&model, &conditions).values(&own)
         };
-        let slope = (values(parameter + shift)? - values(parameter - shift)?) / (2.0 * shift);
         let (model, conditions) = (self.family)(parameter).ok()?;
-        let Equations { values, jacobian, scale } = self.problem(&model, &conditions).equations(&own)?;
+        let Equations { values, jacobian, size, scale } =
+            self.problem(&model, &conditions).equations(&own)?;
+        // The family may end next to a point.
+        let slope = match (shifted(parameter + shift), shifted(parameter - shift)) {
+            (Some(after), Some(before)) => (after - before) / (2.0 * shift),
+            (Some(after), None) => (after - &values) / shift,
+            (None, Some(before)) => (&values - before) / shift,
+            (None, None) => return None,
+        };
         let mut jacobian = jacobian.insert_column(last, 0.0);
         jacobian.set_column(last, &slope);
-        Some(Equations { values, jacobian, scale })
+        Some(Equations { values, jacobian, size, scale })
     }
 
     /// The point of the branch in the plane at a distance along a direction.
@@ -209,12 +223,13 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         (distance, floor): (f64, f64),
     ) -> Result<Solution, AnalysisError> {
         solve(from + direction * distance, floor, |unknowns| {
-            let Equations { values, jacobian, scale } = self.equations(unknowns)?;
+            let Equations { values, jacobian, size, scale } = self.equations(unknowns)?;
             let rows = values.len();
             let (mut values, mut jacobian) = (values.insert_row(rows, 0.0), jacobian.insert_row(rows, 0.0));
             values[rows] = direction.dot(&(unknowns - from)) - distance;
             jacobian.set_row(rows, &direction.transpose());
-            Some(Equations { values, jacobian, scale })
+            let scale = scale.insert_row(rows, unknowns.norm() + distance.abs());
+            Some(Equations { values, jacobian, size, scale })
         })
     }
 
@@ -259,7 +274,7 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     }
 
     fn followed(&self, start: At<N, M>) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
-        let mut branch = Branch { points: Vec::new(), special: Vec::new() };
+        let mut branch = Branch { points: Vec::new(), special: Vec::new(), ended: None };
         let (mut now, mut step) = (start, self.step);
         while branch.points.len() < MOST_POINTS {
             let next =
@@ -267,7 +282,8 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
             let Some(next) = next else {
                 step *= 0.5;
                 if step < SHORTEST * self.step {
-                    return Err(AnalysisError::StepUnderflow { step });
+                    branch.ended = Some(self.end_after(&now, step));
+                    break;
                 }
                 continue;
             };
@@ -280,6 +296,15 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         }
         branch.points.push(now);
         Ok(branch)
+    }
+
+    /// Why no step leads on.
+    fn end_after(&self, last: &At<N, M>, step: f64) -> AnalysisError {
+        let rise = self.step * last.tangent[last.tangent.len() - 1];
+        match (self.family)(last.parameter + rise) {
+            Err(error) => error.into(),
+            Ok(_) => AnalysisError::StepUnderflow { step },
+        }
     }
 
     /// What is special between two points; what is not located is left out.

@@ -21,6 +21,15 @@ pub enum AnalysisError {
         /// How far the generator is from those of symmetries, relative to its size.
         defect: f64,
     },
+    /// A condition asks for a generator that is not among those that are free, or for a value that is no number.
+    Condition {
+        /// The place of the generator, from 0.
+        generator: usize,
+        /// How many there are.
+        generators: usize,
+        /// The value.
+        value: f64,
+    },
     /// The potential contains the time: nothing rests.
     DependsOnTime,
     /// The equations are not those of small vibrations about rest: something moves, a force has no potential, or the mass
@@ -67,6 +76,10 @@ impl fmt::Display for AnalysisError {
                 write!(f, "no solution near the guess: residual {residual:e} after {steps} steps")
             }
             Self::NotASymmetry { defect } => write!(f, "no symmetry of the energy: defect {defect:e}"),
+            Self::Condition { generator, generators, value } => write!(
+                f,
+                "a condition asks generator {generator} for {value}: there are {generators}, counted from 0, and values are finite"
+            ),
             Self::DependsOnTime => write!(f, "the potential contains the time: nothing rests"),
             Self::NoVibrations => write!(f, "something moves or is damped, or masses are not positive"),
             Self::Degenerate { kernel, expected } => {

@@ -1,5 +1,7 @@
 //! How motions depend on where they start, and on the fields of their model.
 
+use core::f64::consts::TAU;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
@@ -14,8 +16,8 @@ use crate::parametric::{Fields, Parametric};
 
 /// Components of the largest state with a matrix of as many columns.
 const COMPONENTS: usize = 24 * 25;
-/// The least number of times that columns are made orthonormal.
-const ROUNDS: f64 = 128.0;
+/// The least number of times that columns are made orthonormal, and the largest.
+const ROUNDS: (f64, f64) = (128.0, 1e9);
 
 /// A state, then its columns one after the other.
 type Wide = [f64; COMPONENTS];
@@ -36,7 +38,8 @@ const fn with_columns(groups: &[Group]) -> ([Group; 8], usize) {
 /// The derivative of a motion with respect to its start, in all directions: `M' = A(z(t)) M`, `M(t0) = 1`, over the plain array.
 ///
 /// State and matrix are integrated together, so that all columns share the motion. The equations are recorded at the start, see
-/// [`JacobianMatrix`]. Columns along a constraint mean something, others do not.
+/// [`JacobianMatrix`]. Columns along a constraint mean something, others do not. The motion is followed as far as its equations have
+/// values, through `det phi = 0` too, where a [`Simulation`](crate::Simulation) stops.
 ///
 /// ```
 /// use affine_runtime::analysis::FlowMatrix;
@@ -235,8 +238,8 @@ pub struct LyapunovSpectrum {
     /// The exponents.
     pub exponents: Vec<f64>,
     /// An estimate of what they are off by: their change over the second half of the time, the sum of the pair that should be
-    /// opposite, and `ln t/t` of growth that is no exponential. No finite time gives a bound; with friction there are no pairs, and
-    /// the estimate is too large.
+    /// opposite, and `ln(1 + r t)/t` of growth that is no exponential, with the norm `r` of the derivative of the equations at the
+    /// start. No finite time gives a bound; with friction there are no pairs, and the estimate is too large.
     pub errors: Vec<f64>,
 }
 
@@ -259,7 +262,10 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     // Of no special directions, in which growth would be less.
     let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
     let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
-    let (count, rounds) = (columns.ncols(), time.abs().max(ROUNDS).ceil());
+    let slopes = flow.jacobian.at(0.0, flow.start.as_slice());
+    // Once in a turn of what is fastest at the start, in whatever units of time: of squares masses and lengths cancel.
+    let rounds = (time.abs() * (&slopes * &slopes).norm().sqrt() / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
+    let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {
         flow.set(&columns);
@@ -271,7 +277,7 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
             half.copy_from(&sums);
         }
     }
-    let secular = time.abs().max(1.0).ln() / time.abs();
+    let secular = (time.abs() * slopes.norm()).ln_1p() / time.abs();
     let mut exponents: Vec<f64> = sums.iter().map(|sum| sum / time).collect();
     exponents.sort_by(|a, b| b.total_cmp(a));
     let drift = (sums - half * 2.0).amax() / time.abs();

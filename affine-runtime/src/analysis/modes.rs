@@ -22,7 +22,7 @@ const STRAY: f64 = 1e-9;
 pub struct Modes<const N: usize> {
     /// Modes, from the lowest; equal frequencies are one mode.
     pub modes: Vec<Mode<N>>,
-    /// Number of directions without restoring force.
+    /// Number of directions without restoring force: `|w^2|` is below 1e-10 of the largest, about where rounding is.
     pub zeros: usize,
     /// The placement at rest.
     pub rest: Matrix<N>,
@@ -78,10 +78,10 @@ impl<const N: usize> Mode<N> {
 /// A table of frequencies.
 impl<const N: usize> fmt::Display for Modes<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{:>20} {:>9}  {:<8} class", "frequency", "error", "shapes")?;
+        writeln!(f, "{:>22} {:>9}  {:<8} class", "frequency", "error", "shapes")?;
         for mode in &self.modes {
             let (w, error) = (mode.frequency(), mode.error / (2.0 * mode.squared.abs().sqrt()));
-            writeln!(f, "{w:>20.15} {error:>9.1e}  {:<8} {:?}", mode.multiplicity(), mode.class)?;
+            writeln!(f, "{w:>22.15e} {error:>9.1e}  {:<8} {:?}", mode.multiplicity(), mode.class)?;
         }
         write!(f, "{} directions without restoring force", self.zeros)
     }

@@ -20,7 +20,17 @@ pub(super) struct Equations {
     pub(super) values: Column,
     pub(super) jacobian: Dense,
     /// Size of what the values are differences of.
-    pub(super) scale: f64,
+    pub(super) size: f64,
+    /// That of each of them.
+    pub(super) scale: Column,
+}
+
+impl Equations {
+    /// Nothing but rounding is left.
+    fn are_solved(&self) -> bool {
+        let mut values = self.values.iter().zip(&self.scale);
+        values.all(|(value, size)| size.is_finite() && value.abs() <= ROUNDINGS * f64::EPSILON * size)
+    }
 }
 
 /// A solution.
@@ -35,11 +45,11 @@ pub(super) struct Solution {
 /// nearest solutions wherever the residual measures the distance from them, isolated or not (N. Yamashita, M. Fukushima,
 /// Computing Suppl. 15 (2001) 239).
 fn step(equations: &Equations, floor: f64) -> Result<Column, AnalysisError> {
-    let Equations { values, jacobian, scale } = equations;
+    let Equations { values, jacobian, size, .. } = equations;
     let svd = decomposed(jacobian.clone()).ok_or(AnalysisError::NoDecomposition)?;
     let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else { return Err(AnalysisError::NoDecomposition) };
     let largest = svd.singular_values.max();
-    let damping = (values.norm() / scale).clamp(floor, 1.0) * largest;
+    let damping = (values.norm() / size).clamp(floor, 1.0) * largest;
     let along = u.tr_mul(values);
     let weighted = DVector::from_fn(along.len(), |k, _| {
         let singular = svd.singular_values[k];
@@ -59,7 +69,7 @@ pub(super) fn solve(
     let no_convergence = |residual: f64, steps| AnalysisError::NoConvergence { residual, steps };
     let mut now = equations(&at).ok_or(no_convergence(f64::NAN, 0))?;
     for steps in 0..MOST_STEPS {
-        let (residual, rounding) = (now.values.norm(), ROUNDINGS * f64::EPSILON * now.scale);
+        let (residual, is_solved) = (now.values.norm(), now.are_solved());
         if !residual.is_finite() {
             return Err(no_convergence(residual, steps));
         }
@@ -71,10 +81,10 @@ pub(super) fn solve(
         });
         match better {
             // The last steps go as far as rounding lets them.
-            Some((next, there)) if residual > rounding || there.values.norm() < 0.5 * residual => {
+            Some((next, there)) if !is_solved || there.values.norm() < 0.5 * residual => {
                 (at, now) = (next, there);
             }
-            _ if residual <= rounding => return Ok(Solution { at, residual, steps }),
+            _ if is_solved => return Ok(Solution { at, residual, steps }),
             _ => return Err(no_convergence(residual, steps)),
         }
     }

@@ -10,7 +10,7 @@ use super::field::{
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
 use super::newton::{Equations, FLOOR, Solution, solve};
-use crate::model::Model;
+use crate::model::{Model, Quantity};
 use crate::state::Phase;
 
 /// Singular values at a solution that are none, relative to the largest.
@@ -23,6 +23,17 @@ pub enum Condition {
     Velocity(usize, f64),
     /// The value of its momentum map.
     MomentumMap(usize, f64),
+}
+
+impl Condition {
+    /// Checks that it is one of so many generators.
+    fn assert_among(&self, generators: usize) -> Result<(), AnalysisError> {
+        let (Self::Velocity(generator, value) | Self::MomentumMap(generator, value)) = *self;
+        match generator < generators && value.is_finite() {
+            true => Ok(()),
+            false => Err(AnalysisError::Condition { generator, generators, value }),
+        }
+    }
 }
 
 /// A point of rest, or one through which the motion is `exp(t zeta)`.
@@ -97,6 +108,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     let basis = symmetries::<N, M>();
     let generators = &generators.iter().map(confined::<N, M>).collect::<Vec<_>>();
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
+    conditions.iter().try_for_each(|condition| condition.assert_among(generators.len()))?;
     let z = vector(&model.flatten(guess));
     if depends_on_time(model, &z) {
         return Err(AnalysisError::DependsOnTime);
@@ -176,8 +188,36 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
                 }
             }
         }
-        let scale = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
-        Some(Equations { values, jacobian, scale: scale.max(f64::MIN_POSITIVE) })
+        let size = motion(model, &z).norm() + slopes.norm() * z.norm() + values.norm();
+        let scale = self.scale(&jacobian, (unknowns, &values));
+        Some(Equations { values, jacobian, size: size.max(f64::MIN_POSITIVE), scale })
+    }
+
+    /// What each value is a difference of. Places and momenta may be in any units: how large momenta are that are not zero
+    /// follows from the places, the masses and the stiffnesses.
+    fn scale(&self, jacobian: &Dense, (unknowns, values): (&Column, &Column)) -> Column {
+        let is_place = |quantity| matches!(quantity, Quantity::Position | Quantity::Placement);
+        let groups = M::DESCRIPTION.full.iter();
+        let places: Vec<bool> = groups.flat_map(|group| vec![is_place(group.quantity); group.len]).collect();
+        let kinds =
+            [true, false].map(|kind| (0..places.len()).filter(|k| places[*k] == kind).collect::<Vec<_>>());
+        let [by_mass, stiffness] = [(0, 1), (1, 0)]
+            .map(|(rows, columns)| jacobian.select_rows(&kinds[rows]).select_columns(&kinds[columns]).norm());
+        let is_held = by_mass > 0.0 && stiffness > 0.0;
+        let momentum = if is_held { (stiffness / by_mass).sqrt() } else { 1.0 };
+        let rate = if is_held { stiffness.sqrt() * by_mass.sqrt() } else { 1.0 };
+        let own = kinds.each_ref().map(|kind| unknowns.select_rows(kind).norm());
+        let sizes = unknowns.map_with_location(|k, _, value| match places.get(k) {
+            Some(true) => own[0].max(own[1] / momentum),
+            Some(false) => own[1].max(own[0] * momentum),
+            None => value.abs().max(rate),
+        });
+        let mut scale = values.abs() + jacobian.abs() * sizes;
+        for kind in &kinds {
+            let size = scale.select_rows(kind).norm();
+            kind.iter().for_each(|k| scale[*k] = size);
+        }
+        scale
     }
 
     pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {

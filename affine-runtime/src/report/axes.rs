@@ -44,7 +44,9 @@ impl Axis {
         // The slack keeps a tick at an end that rounding has moved.
         let first = (low / spacing - 1e-9).ceil() as i64;
         let last = (high / spacing + 1e-9).floor() as i64;
-        let ticks = (first..=last).map(|k| k as f64 * spacing).map(|v| (v, figure(v, spacing))).collect();
+        // Between the least numbers there are no others.
+        let multiples = (first..=last).take_while(|_| spacing > 0.0);
+        let ticks = multiples.map(|k| k as f64 * spacing).map(|v| (v, figure(v, spacing))).collect();
         Self { scale: Scale::Linear, from, to, ticks }
     }
 
@@ -58,11 +60,12 @@ impl Axis {
     ) -> Self {
         let positive = values.into_iter().filter(|&v| v > 0.0);
         let (low, high) = bounds(positive).unwrap_or((1.0, 10.0));
-        // Marks do not touch the frame.
-        let margin = 1.15 * (high / low).powf(0.03);
-        let (low, high) = (low / margin, high * margin);
+        // Marks do not touch the frame. A quotient of all that doubles hold is none.
+        let margin = 1.15 * 10_f64.powf(0.03 * (high.log10() - low.log10()));
+        let (low, high) = ((low / margin).max(f64::from_bits(1)), (high * margin).min(f64::MAX));
         let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
         let round = || (first..=last).flat_map(|k| [1, 2, 5].map(|m| decimal(m, k)));
+        let round = || round().filter(|v| *v > 0.0 && v.is_finite());
         let from = round().rfind(|&v| v <= low).unwrap_or(low);
         let to = round().find(|&v| v >= high).unwrap_or(high);
         let inside = |v: &f64| from <= *v && *v <= to;
@@ -96,7 +99,7 @@ impl Axis {
     fn place(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.from) / (self.to - self.from),
-            Scale::Logarithmic => (value / self.from).log10() / (self.to / self.from).log10(),
+            Scale::Logarithmic => (value.log10() - self.from.log10()) / (self.to.log10() - self.from.log10()),
         }
     }
 }
@@ -235,6 +238,18 @@ mod tests {
         }
         let axis = Axis::decades([0.0, f64::NAN], 4, |v| format!("{v:e}"));
         assert_eq!(labels(&axis), ["5e-1", "1e0", "2e0", "5e0", "1e1", "2e1"], "no positive value");
+    }
+
+    #[test]
+    fn axes_hold_all_that_doubles_hold() {
+        let axis = Axis::decades([5e-324, 1.0, 1e308], 6, |v| format!("{v:e}"));
+        assert!(axis.ticks.len() < 700 && (2..=7).contains(&labels(&axis).len()), "{:?}", labels(&axis));
+        for (value, place) in [(5e-324, 0.0), (1e-8, 0.5), (f64::MAX, 1.0)] {
+            assert!((axis.place(value) - place).abs() < 0.01, "{value:e}: {}", axis.place(value));
+        }
+        for values in [[-5e-324, 5e-324], [0.0, 1e-323], [-1e308, 1e308]] {
+            assert!(Axis::linear(values, 5).ticks.len() < 12, "{values:?}");
+        }
     }
 
     #[test]

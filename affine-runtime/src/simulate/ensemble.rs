@@ -13,7 +13,7 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use super::event::Event;
 use super::motion::PointOf;
-use super::output::Output;
+use super::output::{Output, Schedule};
 use super::settings::Plan;
 use crate::capability::InLanes;
 use crate::error::{Setting, Stop};
@@ -254,9 +254,23 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self.fold(|_, _| Vec::with_capacity(expected), |outputs, t, point| outputs.push((t, *point)), each)
     }
 
+    /// The end and the outputs, of settings that make sense.
+    fn checked(&self) -> core::result::Result<(f64, Schedule), Setting> {
+        let (k, of) = self.shard;
+        if k >= of {
+            return Err(Setting::Shard { k, of });
+        }
+        for event in (self.events)() {
+            if let Some(index) = event.out_of_range {
+                return Err(Setting::EventIndex { event: event.name, index });
+            }
+        }
+        self.plan.checked(&H::Model::DESCRIPTION)
+    }
+
     /// Outputs of a body that comes to the end, as far as it is worth to have room for them at once.
     fn expected_outputs(&self) -> usize {
-        let checked = self.plan.checked(&H::Model::DESCRIPTION);
+        let checked = self.checked();
         checked.map_or(0, |(_, schedule)| schedule.len().min(MOST_EXPECTED))
     }
 
@@ -312,16 +326,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
-        let Self { mut starts, plan, events, progress, shard: (k, of) } = self;
-        if k >= of {
-            return Err(Setting::Shard { k, of }.into());
-        }
-        for event in events() {
-            if let Some(index) = event.out_of_range {
-                return Err(Setting::EventIndex { event: event.name, index }.into());
-            }
-        }
-        let (t_end, schedule) = plan.checked(&H::Model::DESCRIPTION)?;
+        let (t_end, schedule) = self.checked()?;
+        let Self { mut starts, plan, events, progress, .. } = self;
         let done = AtomicU64::new(0);
         let asked = Asked {
             plan: &plan,

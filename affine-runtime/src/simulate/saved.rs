@@ -25,8 +25,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// [`Trajectory::table`] and what `about` notes of the table as a whole, a file of its events, [`Trajectory::events_csv`], where there are some, and `manifest.txt`, which
     /// names these files, and has the state from which the run goes on after each. Memory holds one chunk.
     ///
-    /// A run that is ended from outside, or by a callback, loses the chunk under way at most: the same call goes on after the
-    /// chunks that the manifest names, and gives the same bytes, as [`resume`](Self::resume) does. `max_steps` may be raised.
+    /// A run that is ended from outside loses the chunk under way at most: the same call goes on after the chunks that the manifest
+    /// names, and gives the same bytes, as [`resume`](Self::resume) does. One that a callback or the largest number of steps ends
+    /// loses nothing: its last chunk has fewer outputs, the same call goes on behind it, and the rows of all chunks are the
+    /// same. `max_steps` may be raised.
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File); [`Setting::Checkpoint`] for a folder of another run, and for a stiff run of Gauss

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::trajectory::Trajectory;
+use crate::error::{Error, Result};
 use crate::frames::Matrix;
 use crate::model::{Conserved, Description, Model, Quantity};
 use crate::parametric::Fields;
@@ -46,13 +47,17 @@ impl Table {
 
     /// A table of phase points of the bodies of an ensemble, without rows: `body`, a column for each name, `t`, and the
     /// columns of the point.
-    #[must_use]
-    pub fn of_bodies<const N: usize, M: Model<N>>(names: &[&str]) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::RepeatedColumn`] for a name that is given twice, or that another column has.
+    pub fn of_bodies<const N: usize, M: Model<N>>(names: &[&str]) -> Result<Self> {
         let names = ["body"].iter().chain(names).chain(&["t"]).map(|name| (*name).to_owned());
-        Self::under(
-            &M::DESCRIPTION,
-            names.chain(Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).names()).collect(),
-        )
+        let names = names.chain(Columns::<N, M::Point<f64>>::of(&M::DESCRIPTION).names());
+        let names: Vec<String> = names.collect();
+        match (1..names.len()).find(|k| names[..*k].contains(&names[*k])) {
+            Some(repeated) => Err(Error::RepeatedColumn { name: names[repeated].clone() }),
+            None => Ok(Self::under(&M::DESCRIPTION, names)),
+        }
     }
 
     /// Adds a row to a table [of bodies](Self::of_bodies): number, a value for each name, time and point. What is missing of

@@ -303,7 +303,8 @@ fn expected(iteration: u32, residual: f64, rate: f64) -> f64 {
 
 /// Whether an iteration still gains: the changes of some component are not zero and smaller than a part of the least
 /// before. What does not is at rounding, or does not converge (Hairer, Lubich, Wanner, section VIII.6; by components as in
-/// Antonana, Makazaga, Murua, since components may differ in scale).
+/// Antonana, Makazaga, Murua, since components may differ in scale). A change that is zero is no measure: where momenta alone
+/// change in one iteration, and placements alone in the next, each begins with none.
 struct Descent<S> {
     least: S,
 }
@@ -318,8 +319,8 @@ impl<S: StateVector<f64>> Descent<S> {
     fn goes_on(&mut self, change: &S, part: f64) -> bool {
         let mut goes_on = false;
         for (least, change) in self.least.as_mut().iter_mut().zip(change.as_ref()) {
-            if *change < part * *least {
-                goes_on |= *change > 0.0;
+            if *change > 0.0 && *change < part * *least {
+                goes_on = true;
                 *least = *change;
             }
         }

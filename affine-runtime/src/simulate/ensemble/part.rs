@@ -94,8 +94,8 @@ where
                 let Some((body, recording)) = recordings[lane].take() else { continue };
                 let (trajectory, folded) = recording.done();
                 if next == Next::End {
-                    let (end, events) = (Ok(trajectory.end.1), core::mem::take(&mut trajectory.events));
-                    done(body, Member { number: starts[body].number, end, events, folded });
+                    let ((t, end), events) = (trajectory.end, core::mem::take(&mut trajectory.events));
+                    done(body, Member { number: starts[body].number, end: Ok(end), t, events, folded });
                 }
                 match waiting.next() {
                     Some(next) => {
@@ -166,7 +166,7 @@ where
         };
         let mut folded = (self.begin)(start.number, &start.handle);
         run.iter().for_each(|(t, point)| (self.add)(&mut folded, t, point));
-        Member { number: start.number, end, events: run.events, folded }
+        Member { number: start.number, end, t: run.end().0, events: run.events, folded }
     }
 }
 

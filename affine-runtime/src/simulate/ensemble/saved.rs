@@ -22,8 +22,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     /// manifest names, and gives the same bytes. Starts, models and events have to be the same; settings and shard are compared.
     ///
     /// # Errors
-    /// [`Error::File`]; [`Setting::Checkpoint`](crate::simulate::Setting::Checkpoint) for a folder of another run; a
-    /// [`Setting`](crate::simulate::Setting) that makes no sense.
+    /// [`Error::File`]; [`Error::RepeatedColumn`]; [`Setting::Checkpoint`](crate::simulate::Setting::Checkpoint) for a folder of
+    /// another run; a [`Setting`](crate::simulate::Setting) that makes no sense.
     pub fn save(
         self,
         folder: impl AsRef<Path>,
@@ -41,11 +41,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         let run = format!(
             "bodies of {model}, shard {k} of {of}, {chunk} a file in {format:?}, {plan:?}, columns {names:?}"
         );
+        let mut table = Table::of_bodies::<N, H::Model>(names)?;
+        // Nothing is written of what would not run: the manifest is of these settings.
+        self.checked()?;
         let (mut folder, there) = Folder::open(folder.as_ref(), &run, "chunk ", model)?;
-        let mut table = Table::of_bodies::<N, H::Model>(names);
         table.note("method", "RungeKutta8; bodies apart by closed forms, or Radau where friction is stiff");
         table.note("tolerance", plan.tolerance);
-        let end = plan.t_end.unwrap_or(f64::NAN);
         let last = there.last().and_then(|line| line.split(' ').nth(3)?.parse::<u64>().ok());
         let rest = last.map_or(0, |last| last + 1)..u64::MAX;
         let expected = self.expected_outputs();
@@ -56,7 +57,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
             let mut lines = String::new();
             table.clear();
             for body in &bodies {
-                let ends = body.end.iter().filter(|_| body.folded.is_empty()).map(|point| (end, *point));
+                let ends = body.end.iter().filter(|_| body.folded.is_empty()).map(|point| (body.t, *point));
                 for (t, point) in body.folded.iter().copied().chain(ends) {
                     table.push::<N, H::Model>(body.number, &values(body.number), t, &point);
                 }
