@@ -2,6 +2,7 @@
 
 mod asked;
 mod bodies;
+mod ends;
 mod part;
 mod recording;
 #[cfg(feature = "csv")]
@@ -323,10 +324,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         }
         let (t_end, schedule) = plan.checked(&H::Model::DESCRIPTION)?;
         let done = AtomicU64::new(0);
+        let has_events = !events().is_empty();
         let asked = Asked {
             plan: &plan,
             t_end,
-            within_steps: schedule.peek().is_some() || !events().is_empty(),
+            has_events,
+            within_steps: schedule.peek().is_some() || has_events,
             schedule,
             events: &*events,
             begin,
