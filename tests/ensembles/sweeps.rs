@@ -2,9 +2,11 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use affine_runtime::capability::InLanes;
 use affine_runtime::lanes::F64x16;
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Member;
 
 use crate::models::{Blown, PreparedBlown, PreparedVibrating, Sampled, Vibrating, Wind, vibrating};
 
@@ -26,6 +28,35 @@ fn a_sweep_has_the_bits_of_each_body_alone() {
             assert_eq!(end.unwrap(), *alone.method(Method::RungeKutta8).run().unwrap().end().1);
         }
     }
+}
+
+/// Events, with a model each and with that of the first body for all.
+fn events_are_those_of_each_body_alone<const N: usize, M: InLanes<N> + Sync>(bodies: &[(&M, M::Point<f64>)])
+where
+    M::Point<f64>: Send + Sync,
+{
+    let level = || vec![Event::new("level", |_, point: &M::Point<f64>| point.phi()[(0, 1)] - 0.1)];
+    for is_one in [false, true] {
+        let body = move |k: usize| (if is_one { bodies[0].0 } else { bodies[k].0 }, bodies[k].1);
+        let mut seen = 0;
+        let each = |member: Member<M::Point<f64>, _>| {
+            let (model, start) = body(member.number as usize);
+            let alone = Simulation::new(model, start).until(1.5).tolerance(1e-9).method(Method::RungeKutta8);
+            let run = level().into_iter().fold(alone, Simulation::event).run().unwrap();
+            assert_eq!((&member.events[..], member.end.unwrap()), (run.events(), *run.end().1));
+            seen += member.events.len();
+        };
+        let ensemble = Ensemble::of((0..bodies.len()).map(body)).until(1.5).tolerance(1e-9);
+        ensemble.events(level).each(each).unwrap();
+        assert!(seen > bodies.len() / 4, "{seen} events");
+    }
+}
+
+#[test]
+fn events_of_a_sweep_are_those_of_each_body() {
+    let bodies = vibrating_bodies();
+    let bodies: Vec<_> = bodies.iter().map(|(Owned(model), start)| (model, *start)).collect();
+    events_are_those_of_each_body_alone(&bodies);
 }
 
 /// A force that equations ask, and bases that depend on fields, are those of the body's own model.
@@ -50,6 +81,8 @@ fn fields_that_are_no_coefficients_are_those_of_each_body() {
         let alone = Simulation::new(model, start).until(1.0).tolerance(1e-9).method(Method::RungeKutta8);
         assert_eq!(end.as_ref().unwrap(), alone.run().unwrap().end().1, "body {k}");
     }
+    let bodies: Vec<_> = models.iter().map(|model| (model, start)).collect();
+    events_are_those_of_each_body_alone(&bodies);
     // The uniform part of the wind alone moves the centre along x by w t^2/2.
     for (k, end) in ends.iter().enumerate() {
         let x = end.as_ref().unwrap().x()[0];

@@ -148,7 +148,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             );
             let end = t + left / stretches;
             let end = if stretches > 1.0 && end != t { end } else { until };
-            if self.meet(end, sampling, at)? {
+            if self.meet(end, sampling, None, at)? {
                 return Ok(true);
             }
             if end != until {

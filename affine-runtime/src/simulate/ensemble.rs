@@ -2,6 +2,7 @@
 
 mod asked;
 mod bodies;
+mod ends;
 mod part;
 mod recording;
 #[cfg(feature = "csv")]
@@ -329,10 +330,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         let (t_end, schedule) = self.checked()?;
         let Self { mut starts, plan, events, progress, .. } = self;
         let done = AtomicU64::new(0);
+        let has_events = !events().is_empty();
         let asked = Asked {
             plan: &plan,
             t_end,
-            within_steps: schedule.peek().is_some() || !events().is_empty(),
+            has_events,
+            within_steps: schedule.peek().is_some() || has_events,
             schedule,
             events: &*events,
             begin,

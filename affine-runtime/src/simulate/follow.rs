@@ -160,7 +160,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             true => Ok(motion.reached()),
             false => motion.between(due).map_err(|failure| failed(failure, (asked, tolerance), model)),
         };
-        if self.meet(until, sampling, &mut at)? {
+        if self.meet(until, sampling, None, &mut at)? {
             return Ok(true);
         }
         self.record_through(until, &mut at)?;

@@ -1,7 +1,7 @@
 //! What a run asks of a model.
 
 use super::course::{Choice, Course};
-use super::cubic::{Cubic, Knot};
+use super::cubic::{Knot, on_cubic};
 use super::friction::rate_of_friction;
 use super::motion::{Boxed, Motion, PointOf, Purpose};
 use crate::error::Reason;
@@ -29,9 +29,8 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn velocity(&self, point: &P) -> Velocity<N>;
     /// Sets a knot to a point.
     fn knot(&self, t: f64, point: &P, knot: &mut Knot);
-    /// The points on a cubic after each quarter of the step, with the number of the quarter, if it tells the motion; whether it
-    /// does.
-    fn on_cubic(&self, cubic: Cubic<'_>, each: &mut dyn FnMut(u8, &P)) -> bool;
+    /// The points after each quarter of a step, on the cubic between its ends, if it tells the motion.
+    fn on_cubic(&self, ends: [&Knot; 2]) -> Option<[P; 3]>;
     fn geodesic(&self, t0: f64, point: &P) -> Option<Geodesic<N>>;
     fn on_geodesic(&self, geodesic: &Geodesic<N>, t: f64, start: &P) -> P;
     /// When a closed form leaves GL+(n).
@@ -90,17 +89,15 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     fn knot(&self, t: f64, point: &M::Point<f64>, knot: &mut Knot) {
         knot.set(self.handle.model(), t, point);
     }
-    fn on_cubic(&self, cubic: Cubic<'_>, each: &mut dyn FnMut(u8, &M::Point<f64>)) -> bool {
+    fn on_cubic(&self, ends: [&Knot; 2]) -> Option<[M::Point<f64>; 3]> {
         let model = self.handle.model();
         vectorized(
             #[inline(always)]
             || {
                 let mut quarters = [M::Full::<f64>::zeros(); 3];
-                let is_plain = cubic.quarters::<N, M>(&mut quarters);
-                if is_plain {
-                    (1..).zip(&quarters).for_each(|(quarter, full)| each(quarter, &model.unflatten(full)));
-                }
-                is_plain
+                let is_told = on_cubic::<N, M>(ends, &mut quarters);
+                let [first, second, third] = &quarters;
+                is_told.then(|| [model.unflatten(first), model.unflatten(second), model.unflatten(third)])
             },
         )
     }

@@ -176,18 +176,28 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         }
     }
 
-    /// The events on the way to `end` with the outputs before them; whether the motion does not go straight on there.
-    pub(super) fn meet(&mut self, end: f64, sampling: Sampling, at: &mut At<'_, P>) -> Result<bool, Reason> {
+    /// The events on the way to `end` with the outputs before them; whether the motion does not go straight on there. What the
+    /// ends tell may be known.
+    pub(super) fn meet(
+        &mut self,
+        end: f64,
+        sampling: Sampling,
+        told: Option<Step<P>>,
+        at: &mut At<'_, P>,
+    ) -> Result<bool, Reason> {
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
-        let (mut known, mut is_crossed) = (None, false);
-        if sampling.by_ends && self.has_events() {
-            match self.watcher.passes(model, (end, sampling.rate), at)? {
-                Step::Quiet => return Ok(false),
-                Step::Crossed(point) => (known, is_crossed) = (Some(point), true),
-                Step::Open(point) => known = point,
+        let told = match told {
+            None if sampling.by_ends && self.has_events() => {
+                self.watcher.passes(model, (end, sampling.rate), at)?
             }
-        }
+            told => told.unwrap_or(Step::Open(None)),
+        };
+        let (known, is_crossed) = match told {
+            Step::Quiet => return Ok(false),
+            Step::Crossed(point) => (Some(point), true),
+            Step::Open(point) => (point, false),
+        };
         let (mut count, mut samples) = (0, 0_u32);
         while self.has_events() && self.watcher.t() != end {
             let sample = if is_crossed { end } else { self.watcher.next(start, end, sampling) };

@@ -15,8 +15,9 @@ use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
 use crate::state::Phase;
+pub(super) use passes::Ends;
+use told::Along;
 pub(super) use told::Step;
-use told::Told;
 
 /// What the body may turn, in radians, or its log-stretches change by between two samples.
 const TURN: f64 = 0.5;
@@ -86,8 +87,10 @@ pub(super) struct Watcher<'a, const N: usize, P> {
     end: Sample,
     /// The motion at both ends of a step, where there are events.
     knots: Option<[Box<Knot>; 2]>,
-    /// What is told of functions within it, as far as that is all there is to know.
-    ways: Vec<Told>,
+    /// The values of each function along it.
+    ways: Vec<Along>,
+    /// They are all there is to know.
+    are_told: bool,
     /// The rate where the part begins is not known yet.
     has_passed: bool,
     /// Events that are still at zero at the end of the part.
@@ -100,8 +103,9 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     pub(super) fn new(events: Vec<Event<'a, N, P>>, bases: Option<Bases<N>>) -> Self {
         let nowhere = || Sample { t: f64::NAN, values: vec![f64::NAN; events.len()], rate: 0.0 };
         let (begin, end, stays) = (nowhere(), nowhere(), vec![false; events.len()]);
-        let (memory, ways) = (Vec::new(), Vec::new());
-        Self { memory, begin, end, knots: None, ways, has_passed: false, stays, rests: None, events, bases }
+        let ways = vec![Along::NONE; events.len()];
+        let (memory, knots, rests, are_told, has_passed) = (Vec::new(), None, None, false, false);
+        Self { memory, begin, end, knots, ways, are_told, has_passed, stays, rests, events, bases }
     }
 
     pub(super) fn is_idle(&self) -> bool {
@@ -127,8 +131,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             _ => memory.to_vec(),
         };
         self.begin = Sample { t, values, rate };
-        self.has_passed = false;
-        self.ways.clear();
+        (self.has_passed, self.are_told) = (false, false);
     }
 
     /// The number of parts of at most the length that samples allow, on the way to a time.
@@ -174,7 +177,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
                 continue;
             }
             let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
-            let first = self.ways.get(index).map_or(0.5, Told::zero);
+            let first = if self.are_told { self.ways[index].zero() } else { 0.5 };
             let time = root(function, begin, (t, value), first)?;
             let middle = begin.0 + 0.5 * (time - begin.0);
             let rate = match event.action {

@@ -39,6 +39,7 @@ pub(super) struct Asked<'t, 'a, const N: usize, H: Handle<N>, A> {
     pub(super) t_end: f64,
     pub(super) schedule: Schedule,
     pub(super) events: &'t Events<'a, N, PointOf<N, H>>,
+    pub(super) has_events: bool,
     /// Something is looked at on the way.
     pub(super) within_steps: bool,
     /// What a fold begins with.

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::ends::EndsInLanes;
 use crate::capability::InLanes;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -13,11 +14,13 @@ use crate::simulate::layout::{Layout, placement_in};
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::is_clearly_positive;
 use crate::simulate::settings::Plan;
+use crate::simulate::watcher::Ends;
 
 /// A body before its first step.
 pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
     pub(super) body: usize,
     model: &'a M,
+    point: &'a M::Point<f64>,
     state: M::Reduced<f64>,
     constants: M::Constants<f64>,
     start: Start<M::Reduced<f64>>,
@@ -26,7 +29,7 @@ pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
 /// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
 pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
     (plan, t_end): (&Plan, f64),
-    points: &[(usize, &'a M, &M::Point<f64>)],
+    points: &[(usize, &'a M, &'a M::Point<f64>)],
 ) -> Vec<Begun<'a, N, M>> {
     let t0 = plan.t0;
     let Some(&(_, first, _)) = points.first() else { return Vec::new() };
@@ -41,8 +44,8 @@ pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
     let starts = starts_in_lanes(&equations, (t0, &in_lanes), t_end, plan.tolerance);
     let bodies = points.iter().zip(states).zip(constants).zip(starts);
     bodies
-        .filter_map(|((((body, model, _), state), constants), start)| {
-            Some(Begun { body: *body, model: *model, state, constants, start: start? })
+        .filter_map(|(((&(body, model, point), state), constants), start)| {
+            Some(Begun { body, model, point, state, constants, start: start? })
         })
         .collect()
 }
@@ -56,13 +59,15 @@ pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
     of_lanes: Vec<(&'a M, M::Constants<f64>)>,
     /// Those of the equations are others.
     has_changed: bool,
+    /// The ends of steps, where events are looked for.
+    ends: Option<EndsInLanes<'a, N, M>>,
 }
 
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
     /// The first bodies, one in every lane; lanes that are left rest where the last of them is.
     pub(super) fn filled(
         (plan, t_end): (&Plan, f64),
-        within_steps: bool,
+        (within_steps, has_events): (bool, bool),
         first: Begun<'a, N, M>,
         others: &mut impl Iterator<Item = Begun<'a, N, M>>,
     ) -> Self {
@@ -74,7 +79,9 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
             integration.keep();
         }
         let of_lanes = vec![(first.model, first.constants); T::LANES];
-        let mut lanes = Self { integration, t0, bodies: vec![None; T::LANES], of_lanes, has_changed: false };
+        let (bodies, has_changed) = (vec![None; T::LANES], false);
+        let ends = has_events.then(|| EndsInLanes::new(T::LANES, (first.model, first.point)));
+        let mut lanes = Self { integration, t0, bodies, of_lanes, has_changed, ends };
         lanes.put(0, &first);
         let mut last = first;
         for lane in 1..T::LANES {
@@ -95,6 +102,9 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         self.of_lanes[lane] = (begun.model, begun.constants);
         self.has_changed = true;
         self.bodies[lane] = Some(begun.body);
+        if let Some(ends) = &mut self.ends {
+            ends.begin(lane, begun.model, (self.t0, begun.point));
+        }
     }
 
     /// Leaves a lane without a body.
@@ -125,7 +135,24 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
                 .zip(&self.of_lanes)
                 .for_each(|(model, (of_lane, _))| *model = of_lane);
         }
-        self.integration.advance()
+        let fates = self.integration.advance();
+        if let Some(mut ends) = self.ends.take() {
+            ends.step(|lane| {
+                let has_end = self.bodies[lane].is_some() && self.has_stepped(lane);
+                has_end.then(|| (self.t(lane), self.reached(lane).0))
+            });
+            self.ends = Some(ends);
+        }
+        fates
+    }
+
+    /// What is found at the ends of the last step in a lane, given how the body turns at its begin, where events are looked for.
+    pub(super) fn ends<R>(
+        &self,
+        lane: usize,
+        look: impl FnOnce(&Ends<'_, M::Point<f64>>, &dyn Fn() -> f64) -> R,
+    ) -> Option<R> {
+        self.ends.as_ref().map(|ends| ends.of_lane(lane, look))
     }
 
     /// The last attempt of a lane was a step.

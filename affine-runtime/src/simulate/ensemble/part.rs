@@ -73,7 +73,8 @@ where
         let mut trajectories = vec![trajectory; T::LANES];
         let record =
             |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
-        let mut bodies = Bodies::<N, T, H::Model>::filled(course, self.within_steps, first, &mut waiting);
+        let asked = (self.within_steps, self.has_events);
+        let mut bodies = Bodies::<N, T, H::Model>::filled(course, asked, first, &mut waiting);
         let mut recordings: Vec<_> = trajectories
             .iter_mut()
             .enumerate()
@@ -121,7 +122,8 @@ where
         }
         if self.within_steps && bodies.has_stepped(lane) {
             let t = bodies.t(lane);
-            let next = recording.step(t, &mut bodies.within(lane), self.add);
+            let events = bodies.ends(lane, |ends, turning| recording.look_at(ends, turning));
+            let next = recording.step(t, events, &mut bodies.within(lane), self.add);
             if next != Next::Step {
                 return next;
             }

@@ -9,7 +9,7 @@ use crate::simulate::motion::WithWork;
 use crate::simulate::point::check;
 use crate::simulate::recorder::{Recorder, Turn};
 use crate::simulate::trajectory::Trajectory;
-use crate::simulate::watcher::{At, Sampling, WITHIN_A_STEP, Watcher};
+use crate::simulate::watcher::{At, Ends, Sampling, Step, WITHIN_A_STEP, Watcher};
 use crate::state::Phase;
 
 const SAMPLING: Sampling = Sampling { parts: WITHIN_A_STEP, by_ends: true, rate: 0.0 };
@@ -77,15 +77,26 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         Self { recorder, folded, is_refused }
     }
 
-    /// Looks at a step to a time: events, and outputs.
-    pub(super) fn step(&mut self, t: f64, at: &mut At<'_, P>, add: &dyn Fn(&mut A, f64, &P)) -> Next {
+    /// Looks at the ends of a step for events.
+    pub(super) fn look_at(&mut self, ends: &Ends<'_, P>, turning: &dyn Fn() -> f64) -> Step<P> {
+        self.recorder.watcher.goes_by(ends, SAMPLING.rate, turning)
+    }
+
+    /// Looks at a step to a time: events, of which its ends tell, and outputs.
+    pub(super) fn step(
+        &mut self,
+        t: f64,
+        events: Option<Step<P>>,
+        at: &mut At<'_, P>,
+        add: &dyn Fn(&mut A, f64, &P),
+    ) -> Next {
         if self.is_refused {
             return Next::Alone;
         }
-        if self.recorder.has_events() {
+        if let Some(step @ (Step::Crossed(_) | Step::Open(_))) = events {
             // Those of the step before.
             self.recorder.place.met = 0;
-            let met = self.recorder.meet(t, SAMPLING, at);
+            let met = self.recorder.meet(t, SAMPLING, Some(step), at);
             self.hand_over(add);
             match met {
                 Ok(false) => {}

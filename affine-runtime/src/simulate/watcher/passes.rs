@@ -1,25 +1,33 @@
 //! Steps of which the ends tell that nothing happens in between.
 
-use super::told::{Step, Told};
+use super::told::{Along, Step};
 use super::{At, Watcher};
 use crate::error::Reason;
 use crate::inner::larger;
-use crate::simulate::cubic::{Cubic, Knot};
+use crate::simulate::cubic::Knot;
 use crate::simulate::layout::placement_in;
 use crate::simulate::mechanics::Mechanics;
 use crate::simulate::standing::{Side, Standing};
 use crate::state::Phase;
 
+/// A step as its ends alone tell it.
+pub(in super::super) struct Ends<'p, P> {
+    /// Where it begins.
+    pub(in super::super) begin: f64,
+    /// Its end, and the point there.
+    pub(in super::super) end: (f64, &'p P),
+    /// The points after each quarter, on a cubic between the ends that tells the motion.
+    pub(in super::super) quarters: Option<&'p [P; 3]>,
+}
+
 impl<const N: usize, P: Phase<N>> Watcher<'_, N, P> {
     /// The same, where steps follow: what [`passes`](Self::passes) has to know of the motion there.
     pub(in super::super) fn begin_steps(&mut self, model: &dyn Mechanics<N, P>, point: &P) {
-        let knots = self.knots.get_or_insert_with(|| [Knot::NONE, Knot::NONE].map(Box::new));
+        let knots = self.knots.get_or_insert_with(|| [Knot::none(), Knot::none()].map(Box::new));
         model.knot(self.begin.t, point, &mut knots[1]);
     }
 
-    /// Goes to the end of a step if its ends tell that nothing happens on the way: the step is short for the motion, and on the
-    /// cubic between them no function comes near zero. Elsewhere samples have to be [looked](Self::look) at, that at the end
-    /// alone where functions go straight through zero. What rates are at least is known.
+    /// Goes to the end of a step if its ends [tell](Self::goes_by) that it may. What rates are at least is known.
     ///
     /// # Errors
     /// Those of `at`.
@@ -29,60 +37,66 @@ impl<const N: usize, P: Phase<N>> Watcher<'_, N, P> {
         (end, least): (f64, f64),
         at: &mut At<'_, P>,
     ) -> Result<Step<P>, Reason> {
-        let Some(knots) = &mut self.knots else { return Ok(Step::Open(None)) };
+        let Some(mut knots) = self.knots.take() else { return Ok(Step::Open(None)) };
         let (point, _) = at(end)?;
         knots.swap(0, 1);
         model.knot(end, &point, &mut knots[1]);
-        self.end.t = end;
-        let crosses = self.ends(&point);
-        let is_told = crosses.is_some() && self.are_told(model);
-        if is_told && crosses == Some(false) {
-            self.pass();
+        let [from, to] = &knots;
+        let quarters = model.on_cubic([from, to]);
+        let ends = Ends { begin: from.t, end: (end, &point), quarters: quarters.as_ref() };
+        let placement = || placement_in(model.description().full, N).unwrap_or_default();
+        let step = self.goes_by(&ends, least, || from.turning(placement()));
+        self.knots = Some(knots);
+        Ok(step)
+    }
+
+    /// Goes to the end of a step if its ends tell that nothing happens on the way: the step is short for the motion, and on the
+    /// cubic between them no function comes near zero. Elsewhere samples have to be [looked](Self::look) at, that at the end
+    /// alone where functions go straight through zero. What rates are at least is known, and how the body turns at the begin.
+    pub(in super::super) fn goes_by(
+        &mut self,
+        ends: &Ends<'_, P>,
+        least: f64,
+        turning: impl FnOnce() -> f64,
+    ) -> Step<P> {
+        let told = self.told(ends);
+        if let Some((false, stay)) = told {
+            match stay {
+                true => core::mem::swap(&mut self.begin, &mut self.end),
+                false => self.pass(),
+            }
             self.has_passed = true;
-            return Ok(Step::Quiet);
+            return Step::Quiet;
         }
-        if let (true, Some([begin, _])) = (core::mem::take(&mut self.has_passed), &self.knots) {
-            let placement = placement_in(model.description().full, N).unwrap_or_default();
-            self.begin.rate = larger(least, begin.turning(placement));
+        if core::mem::take(&mut self.has_passed) {
+            self.begin.rate = larger(least, turning());
         }
-        if is_told {
-            return Ok(Step::Crossed(point));
-        }
-        self.ways.clear();
-        Ok(Step::Open(Some(point)))
+        self.are_told = told.is_some();
+        let (_, point) = ends.end;
+        if self.are_told { Step::Crossed(*point) } else { Step::Open(Some(*point)) }
     }
 
-    /// Looks at the end of a step: whether a function is beyond zero there that counts; `None` where one has no side of zero
-    /// there or at the begin.
-    fn ends(&mut self, point: &P) -> Option<bool> {
-        let (t, bases) = (self.end.t, self.bases.as_ref());
-        let events = self.events.iter().zip(&self.memory).zip(&mut self.end.values);
-        let mut crosses = false;
-        for ((event, memory), value) in events {
-            *value = event.at(t, point, bases);
-            let (Standing::On(from), to) = (memory.standing, Side::of(*value)?) else { return None };
-            crosses |= from != to && event.counts(to);
+    /// Whether a function goes beyond zero where that counts, and whether all stay on their sides of it; `None` where one has no
+    /// side at an end of the step, comes near zero on the cubic in between, or goes there and back.
+    fn told(&mut self, ends: &Ends<'_, P>) -> Option<(bool, bool)> {
+        let Self { events, memory, bases, begin, end, ways, .. } = self;
+        let (bases, from, to) = (bases.as_ref(), begin.t, ends.end.0);
+        end.t = to;
+        let [first, second, third] = ends.quarters.filter(|_| from == ends.begin)?;
+        let [quarter, half, three_quarters] = [0.25, 0.5, 0.75].map(|part| from + part * (to - from));
+        let (mut crosses, mut stay) = (false, true);
+        let values = begin.values.iter().zip(&mut end.values);
+        for (((event, memory), (from, to)), way) in events.iter().zip(memory).zip(values).zip(ways) {
+            let at = |t, point| event.at(t, point, bases);
+            *to = at(ends.end.0, ends.end.1);
+            let (Standing::On(begin), end) = (memory.standing, Side::of(*to)?) else { return None };
+            *way = Along([*from, at(quarter, first), at(half, second), at(three_quarters, third), *to]);
+            if !way.is_plain() {
+                return None;
+            }
+            stay &= begin == end;
+            crosses |= begin != end && event.counts(end);
         }
-        Some(crosses)
-    }
-
-    /// The cubic between the ends of a step tells that no function comes near zero, or goes there and back.
-    fn are_told(&mut self, model: &dyn Mechanics<N, P>) -> bool {
-        let Self { events, bases, begin, end, ways, knots: Some([from, to]), .. } = self else {
-            return false;
-        };
-        let (t, bases) = (begin.t, bases.as_ref());
-        ways.clear();
-        ways.extend(begin.values.iter().zip(&end.values).map(|(begin, end)| Told::between(*begin, *end)));
-        let mut each = |quarter: u8, point: &P| {
-            let t = t + 0.25 * f64::from(quarter) * (end.t - t);
-            events
-                .iter()
-                .zip(ways.iter_mut())
-                .for_each(|(event, way)| way.set(quarter, event.at(t, point, bases)));
-        };
-        begin.t == from.t
-            && model.on_cubic(Cubic { begin: from, end: to }, &mut each)
-            && ways.iter().all(Told::is_plain)
+        Some((crosses, stay))
     }
 }

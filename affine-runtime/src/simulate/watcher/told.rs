@@ -15,52 +15,41 @@ pub(in super::super) enum Step<P> {
 
 /// The values of a function along a step, at its ends and after each quarter of it.
 #[derive(Clone, Copy)]
-pub(super) struct Told([f64; PARTS + 1]);
+pub(super) struct Along(pub(super) [f64; PARTS + 1]);
 
 /// The quarters.
 pub(super) const PARTS: usize = 4;
 
-impl Told {
-    /// Those at the ends.
-    pub(super) fn between(begin: f64, end: f64) -> Self {
-        Self([begin, f64::NAN, f64::NAN, f64::NAN, end])
-    }
-
-    /// That after some quarters.
-    pub(super) fn set(&mut self, quarter: u8, value: f64) {
-        if let Some(own) = self.0.get_mut(usize::from(quarter)) {
-            *own = value;
-        }
-    }
-
-    /// Distances beyond zero: positive on the side of the end.
-    fn distances(&self) -> [f64; PARTS + 1] {
-        let side = self.0[PARTS].signum();
-        self.0.map(|value| value * side)
-    }
+impl Along {
+    pub(super) const NONE: Self = Self([f64::NAN; PARTS + 1]);
 
     /// All values are numbers, and the function does not come near zero, or goes through it without turning.
+    #[inline]
     pub(super) fn is_plain(&self) -> bool {
-        let distances = self.distances();
-        let (begin, mut rise) = (distances[0], f64::INFINITY);
+        let [begin, .., end] = self.0;
         let (mut least, mut most, mut sum) = (begin, begin, begin);
-        for k in 0..PARTS {
-            let (distance, risen) = (distances[k + 1], distances[k + 1] - distances[k]);
+        for value in &self.0[1..] {
             // One instruction each, where NaN is looked for besides.
-            least = if distance < least { distance } else { least };
-            most = if distance > most { distance } else { most };
-            rise = if risen < rise { risen } else { rise };
-            sum += distance;
+            least = if *value < least { *value } else { least };
+            most = if *value > most { *value } else { most };
+            sum += value;
         }
         let near = NEAR_ZERO * (most - least);
-        !sum.is_nan() && if begin > 0.0 { least > near } else { rise > near }
+        let is_far = if begin > 0.0 && end > 0.0 {
+            least > near
+        } else if begin < 0.0 && end < 0.0 {
+            -most > near
+        } else {
+            self.0.is_sorted_by(|from, to| (to - from) * end.signum() > near)
+        };
+        !sum.is_nan() && is_far
     }
 
     /// The part of the step after which the function comes to zero, about.
     pub(super) fn zero(&self) -> f64 {
-        let distances = self.distances();
-        let before = (0..PARTS).rfind(|k| distances[*k] < 0.0).unwrap_or(0);
-        let [from, to] = [distances[before], distances[before + 1]];
+        let side = self.0[PARTS].signum();
+        let before = (0..PARTS).rfind(|k| self.0[*k] * side < 0.0).unwrap_or(0);
+        let [from, to] = [self.0[before], self.0[before + 1]];
         (before as f64 + from / (from - to)) / PARTS as f64
     }
 }
@@ -70,7 +59,7 @@ mod tests {
     use super::*;
 
     fn is_told(values: [f64; 5]) -> bool {
-        Told(values).is_plain()
+        Along(values).is_plain()
     }
 
     #[test]
