@@ -1,4 +1,4 @@
-//! Fast rotation: every crossing of a level is found. Their numbers are those of 4e6 samples of
+//! Fast rotation: every crossing of a level is found. Their numbers are those of 4e5 samples of
 //! `phi0 exp(t X) exp(t W)`, where all of them are simple.
 
 use core::ops::ControlFlow;
@@ -25,33 +25,33 @@ const CASES: [Case; 3] = [
     Case {
         phi: [1.0, 0.0, 0.0, 1.0],
         omega_hat: [0.0, 1e3, -1e3, 0.0],
-        falling: 1592,
-        rising: 1591,
+        falling: 398,
+        rising: 397,
         first: 0.003_141_592_653_589_793,
-        last: 9.999_689_416_376_312,
+        last: 2.497_566_159_603_886,
         step: 2.5e-4,
     },
     Case {
         phi: [1.0, 0.0, 0.0, 1.0],
         omega_hat: [0.0, 50.0, -50.0, 0.0],
-        falling: 80,
-        rising: 79,
+        falling: 20,
+        rising: 19,
         first: 0.062_831_853_071_795_86,
-        last: 9.990_264_638_415_542,
+        last: 2.450_442_269_800_039_4,
         step: 5e-3,
     },
     Case {
         phi: [1.1, 0.2, -0.1, 0.95],
         omega_hat: [100.0, 1e3, -800.0, -100.0],
-        falling: 1459,
-        rising: 1459,
+        falling: 365,
+        rising: 364,
         first: 0.002_987_098_794_971_961_6,
-        last: 9.997_526_172_988_874,
+        last: 2.497_324_977_688_794_2,
         step: 2.5e-4,
     },
 ];
 
-const SPAN: f64 = 10.0;
+const SPAN: f64 = 2.5;
 /// Times are right to some hundred of it.
 const TOLERANCE: f64 = 1e-9;
 
@@ -139,7 +139,7 @@ fn crossings_close_together_come_in_their_order() {
         for method in [Method::ClosedForm, Method::RungeKutta8, Method::AdaptiveSplitting { order: None }] {
             let run = Simulation::new(&Disc, start(case)).from(from).until(until).method(method);
             let run = run.event(level("high", 1e-3)).event(level("low", -1e-3)).run().unwrap();
-            assert!(run.events().len() > 300, "{method:?}: {}", run.events().len());
+            assert!(run.events().len() > 75, "{method:?}: {}", run.events().len());
             let sign = (until - from).signum();
             assert!(run.events().windows(2).all(|pair| sign * (pair[1].t - pair[0].t) > 0.0), "{method:?}");
             for event in run.events() {
