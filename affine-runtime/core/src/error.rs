@@ -85,7 +85,7 @@ pub enum Error {
     /// Two columns of a table have one name, by which files and programs ask for them.
     #[cfg(feature = "std")]
     RepeatedColumn {
-        /// The name.
+        /// The name that both have.
         name: String,
     },
     /// A file cannot be written.
