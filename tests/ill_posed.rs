@@ -48,12 +48,14 @@ struct Compiler {
 impl Compiler {
     fn new() -> Self {
         let mut cargo = Command::new(env!("CARGO"));
+        // The selection of all tests, by which features of dependencies are those with which they have been built.
         cargo.args([
-            "check",
-            "--profile=test",
-            "--quiet",
-            "--package=affine-tests",
+            "test",
+            "--workspace",
+            "--exclude=affine",
             "--lib",
+            "--no-run",
+            "--quiet",
             "--message-format=json",
         ]);
         let output = cargo.output().unwrap();

@@ -44,7 +44,7 @@ pub(crate) fn assert_motion<const N: usize, F: Model<N>>(
     let rate = model.velocity(start).phi_dot.norm() / start.phi().norm();
     for duration in [1.5 / rate, -0.75 / rate] {
         let equations = |y: &F::Full<f64>| model.hamilton_equations(0.0, y);
-        let expected = model.unflatten(&extrapolated(equations, model.flatten(start), duration, STEPS));
+        let expected = model.unflatten(&extrapolated(&equations, model.flatten(start), duration, STEPS));
         let found = closed(T0 + duration);
         let close = |what, found: &[f64], expected: &[f64]| {
             assert_close(what, found, expected, norm(expected), GEODESIC);
