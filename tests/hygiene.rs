@@ -208,6 +208,24 @@ mod fragments {
     }
 }
 
+/// Structs that a macro of the user writes, of which nothing is called: what lints say of its items they do not say of emitted ones.
+#[deny(dead_code)]
+mod silent {
+    macro_rules! models {
+        ($n:literal $unit:ident $fields:ident) => {
+            #[affine_runtime::affine_model(dim = $n, kinetic(dalembert = 1, space_translation = 1), emit(metric, balance))]
+            pub struct $unit;
+
+            #[affine_runtime::affine_model(dim = $n, kinetic(body_inertia = a))]
+            pub struct $fields {
+                pub a: f64,
+            }
+        };
+    }
+    models! { 2 Unit Fields }
+    models! { 3 UnitInSpace FieldsInSpace }
+}
+
 /// The runtime under another name.
 mod renamed {
     mod inner {

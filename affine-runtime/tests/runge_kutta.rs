@@ -152,6 +152,17 @@ fn nothing_to_do_costs_one_evaluation() {
     assert_eq!(run.statistics(), Statistics { evaluations: 1, ..Statistics::default() });
 }
 
+/// A change of a state that is zero but for rounding, at a time that rounding resolves no further than steps would be.
+#[test]
+fn what_is_zero_but_for_rounding_begins_to_move() {
+    const CHANGE: &[Group] = &[Group::new(Quantity::TangentVector, 1)];
+    let mut run = RungeKutta8::new(|_, _: &[f64; 1]| [3.0], CHANGE, (0.2, [5e-16]), 1.7, 1e-13).unwrap();
+    while !run.is_finished() {
+        run.advance().unwrap();
+    }
+    assert!((run.y()[0] - 4.5).abs() < 1e-14, "{:?}", run.y());
+}
+
 #[test]
 fn blow_up_stops_before_the_pole_and_keeps_the_state() {
     // y' = y^2, y = 1/(1 - t).

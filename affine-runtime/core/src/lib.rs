@@ -1,5 +1,5 @@
 //! What the code of `#[affine_model(...)]` consists of: phase points, kinematics, the trait of models, and what a model may
-//! have beyond it. It evaluates any model, and integrates none. Users name `affine_runtime`, which has all of it.
+//! have beyond it. It evaluates models, and integrates none. Users name `affine_runtime`, which has all of it.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod balance;

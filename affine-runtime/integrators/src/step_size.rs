@@ -118,6 +118,15 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
     16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
 }
 
+/// The length of a first step from `t`: within the span, and one that times can tell from none. What is zero but for rounding, as
+/// a change of the state may be, seems to move at once.
+#[inline(always)]
+pub(crate) fn begun(length: f64, t: f64, span: f64) -> f64 {
+    let least = 2.0 * shortest(t, t + span);
+    let length = if length < least { least } else { length };
+    if length < span.abs() { length } else { span.abs() }
+}
+
 /// Length of the step over which slopes are compared at the start: a hundredth of the time in which the fastest group changes
 /// by itself. Momenta that are zero have no such time, and are held against what they are on the way to, `at_rest`; what
 /// does not move at all may stay so for all of the interval. Where something else that is zero begins to move there is no
@@ -147,7 +156,6 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     (tolerance, order): (f64, f64),
 ) -> f64 {
     let first = error_norm.over_size(y.as_ref(), slope.as_ref());
-    let within = |h: f64| if h < span.abs() { h } else { span.abs() };
     let at_rest = || error_norm.rate_from_rest(y.as_ref(), slope.as_ref());
     let trial = trial(first, span, at_rest);
     let signed = trial.copysign(span);
@@ -166,7 +174,7 @@ pub(crate) fn first_step<S: StateVector<f64>>(
     let fastest = if first.is_finite() && first > second { first } else { second };
     let length = exp(ln(FIRST_ERROR * tolerance) / order) / fastest;
     // A step a hundred times the trial is beyond what the two slopes say; this also catches rate 0 and NaN.
-    within(if length < 100.0 * trial { length } else { 100.0 * trial })
+    begun(if length < 100.0 * trial { length } else { 100.0 * trial }, t, span)
 }
 
 #[cfg(test)]

@@ -27,7 +27,8 @@ pub enum Method {
     RungeKutta5,
     /// Taylor series, [`Taylor`](affine_integrators::Taylor), of a model with `emit(taylor)`; an error for others.
     /// Under a constraint the steps are in the space around the group and keep it within their error, about rounding at a tolerance
-    /// of 1e-13; [`Method::Automatic`] does not take them there.
+    /// of 1e-13; [`Method::Automatic`] does not take them there. Points of a looser run are too far off it for `at_momentum`, so
+    /// that an event cannot change them by it.
     Taylor {
         /// The order, 2 to 32; `None`: the one that suits the tolerance.
         order: Option<usize>,

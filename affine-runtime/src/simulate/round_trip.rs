@@ -27,9 +27,10 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     ///
     /// A test that needs no reference: what is left at the start is of the size of both errors together. It is a lower
     /// bound in practice, not an upper one: errors that the way back undoes are not seen, those of symmetric methods in
-    /// equal steps (Gauss, RATTLE, splitting) least of all, which return up to rounding whatever the step. With friction
-    /// the way back multiplies errors by what the motion had lost. Where an event changed the motion the way back
-    /// leads elsewhere.
+    /// equal steps (Gauss, RATTLE, splitting) least of all, which return up to rounding whatever the step. Gauss collocation
+    /// does so where it keeps what the reduction took out, as `det Psi = 1` or the vorticity: the way back begins with their
+    /// values at the turn. With friction the way back multiplies errors by what the motion had lost. Where an event changed
+    /// the motion the way back leads elsewhere.
     ///
     /// # Errors
     /// [`Halt`](super::Halt) of whichever run stopped.

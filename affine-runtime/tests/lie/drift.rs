@@ -2,11 +2,12 @@
 
 use affine_integrators::gauss::Tableau;
 use affine_integrators::lie::Chart;
-use affine_integrators::{Gauss, RungeKutta8};
+use affine_integrators::radau::{self, Differences};
+use affine_integrators::{Gauss, Radau, RungeKutta8};
 use affine_runtime::frames::Matrix;
 use affine_runtime::model::{Constraint, Group, Quantity};
 
-use crate::curve::{defect, project, write};
+use crate::curve::{GROUPS, defect, project, write};
 
 /// Unoptimised, a tenth: the bound grows with the root of the number of steps.
 const STEPS: u64 = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
@@ -99,6 +100,23 @@ fn runge_kutta_stays_on_sl() {
 #[test]
 fn runge_kutta_stays_on_so() {
     by_runge_kutta(Constraint::Rigid);
+}
+
+/// Stage equations are solved to a part of the tolerance, and for all entries of `xi`: what is left over must not lead off the group.
+#[test]
+fn radau_stays_on_every_group_at_a_coarse_tolerance() {
+    const COARSE: usize = 300;
+    for constraint in GROUPS {
+        let (chart, f) = (Chart::<3>::new(constraint, 0), (equations(constraint), Differences));
+        let mut run = Radau::within(chart, f, &radau::Tableau::THREE, PLACEMENT, start(), 1e9, 1e-4).unwrap();
+        let defects = (0..COARSE).map(|_| {
+            run.advance().unwrap();
+            defect(constraint, &Matrix::<3>::from_row_slice(run.y()))
+        });
+        let largest = defects.fold(0.0, f64::max);
+        println!("{constraint:?}: {largest:e} after {COARSE} steps");
+        assert!(largest < f64::EPSILON * (16.0 + (COARSE as f64).sqrt()), "{constraint:?} {largest:e}");
+    }
 }
 
 #[test]

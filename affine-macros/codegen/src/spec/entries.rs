@@ -105,6 +105,20 @@ pub(super) fn shortened(text: &str) -> String {
     text.chars().take(LONGEST).chain("...".chars()).collect()
 }
 
+/// The tokens at another place.
+pub(super) fn placed(tokens: TokenStream, at: Span) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|mut token| {
+            if let TokenTree::Group(group) = &token {
+                token = Group::new(group.delimiter(), placed(group.stream(), at)).into();
+            }
+            token.set_span(at);
+            token
+        })
+        .collect()
+}
+
 /// Tokens that a `macro_rules!` fragment wraps in an invisible group, without it.
 pub(super) fn unwrapped(mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
     while let [TokenTree::Group(group)] = tokens.as_slice()

@@ -1,10 +1,10 @@
 //! The struct below the attribute.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};
-use syn::{Attribute, Data, DeriveInput, Fields, Generics, Type, Visibility};
+use syn::{Attribute, Data, DeriveInput, Fields, Generics, Type};
 
-use super::entries::shortened;
+use super::entries::{placed, shortened};
 use crate::diagnostics::{Diagnostics, NotationMistake, Region, Reported};
 
 /// The user's struct.
@@ -13,8 +13,8 @@ pub struct Item {
     attributes: Vec<Attribute>,
     /// The struct without them, as written.
     declaration: TokenStream,
-    /// The visibility.
-    pub visibility: Visibility,
+    /// The visibility, of tokens of the attribute.
+    pub visibility: TokenStream,
     /// The name.
     pub ident: Ident,
     /// The generics, with the where clause.
@@ -30,7 +30,10 @@ impl Item {
     pub(crate) fn new(mut input: DeriveInput, fields: Vec<Field>, stands_in: bool) -> Self {
         let attributes = std::mem::take(&mut input.attrs);
         let declaration = input.to_token_stream();
-        let DeriveInput { vis: visibility, ident, generics, .. } = input;
+        let DeriveInput { vis, ident, generics, .. } = input;
+        // Where a macro writes the struct, lints take what begins with a token of that macro for the user's own, and say of a
+        // constructor that it is never called.
+        let visibility = placed(vis.into_token_stream(), Span::call_site());
         Self { attributes, declaration, visibility, ident, generics, fields, stands_in }
     }
 

@@ -81,13 +81,19 @@ impl<const N: usize> Chart<N> {
     /// `phi^-1 phi'` in the Lie algebra: what leads out of it is rounding of `phi'`.
     #[must_use]
     pub fn comoving(&self, phi: &Matrix<N>, phi_dot: &Matrix<N>) -> Matrix<N> {
+        self.in_algebra(&match self.constraint {
+            Constraint::Rigid => phi.tr_mul(phi_dot),
+            Constraint::Isochoric => adjugate(phi) * phi_dot,
+            Constraint::Conformal => phi.tr_mul(phi_dot) * (N as f64 / phi.dot(phi)),
+        })
+    }
+
+    /// The part of a matrix in the Lie algebra.
+    fn in_algebra(&self, matrix: &Matrix<N>) -> Matrix<N> {
         match self.constraint {
-            Constraint::Rigid => skew(&phi.tr_mul(phi_dot)),
-            Constraint::Isochoric => without_trace(&(adjugate(phi) * phi_dot)),
-            Constraint::Conformal => {
-                let velocity = phi.tr_mul(phi_dot) * (N as f64 / phi.dot(phi));
-                skew(&velocity) + Matrix::<N>::identity() * (velocity.trace() / N as f64)
-            }
+            Constraint::Rigid => skew(matrix),
+            Constraint::Isochoric => without_trace(matrix),
+            Constraint::Conformal => skew(matrix) + Matrix::<N>::identity() * (matrix.trace() / N as f64),
         }
     }
 
@@ -97,6 +103,12 @@ impl<const N: usize> Chart<N> {
 
     fn read<S: StateVector<f64>>(&self, state: &S) -> Matrix<N> {
         Matrix::<N>::from_row_slice(&state.as_ref()[self.range()])
+    }
+
+    /// `xi` of a state of coordinates. What leads out of the Lie algebra is rounding, and what an iteration for all of the entries
+    /// left over.
+    fn xi<S: StateVector<f64>>(&self, z: &S) -> Matrix<N> {
+        self.in_algebra(&self.read(z))
     }
 
     fn write<S: StateVector<f64>>(&self, state: &mut S, matrix: &Matrix<N>) {
@@ -127,14 +139,14 @@ impl<const N: usize, S: StateVector<f64>> Coordinates<S> for Chart<N> {
 
     #[inline]
     fn state(&self, base: &Sum<S>, z: &S) -> Sum<S> {
-        self.placed(base, Sum::of(*z), &self.displacement(&self.read(z)))
+        self.placed(base, Sum::of(*z), &self.displacement(&self.xi(z)))
     }
 
     #[inline]
     fn velocity(&self, state: &S, z: &S, rate: &S) -> S {
         let oh = self.comoving(&self.read(state), &self.read(rate));
         let mut velocity = *rate;
-        self.write(&mut velocity, &self.rate(&self.read(z), &oh));
+        self.write(&mut velocity, &self.rate(&self.xi(z), &oh));
         velocity
     }
 
@@ -145,7 +157,7 @@ impl<const N: usize, S: StateVector<f64>> Coordinates<S> for Chart<N> {
     }
 
     fn middle(&self, base: &Sum<S>, rise: &S) -> Sum<S> {
-        self.placed(base, *base, &self.displacement(&(self.read(rise) * 0.5)))
+        self.placed(base, *base, &self.displacement(&(self.xi(rise) * 0.5)))
     }
 
     fn centred(&self, z: &S, rise: &S) -> S {
@@ -155,7 +167,7 @@ impl<const N: usize, S: StateVector<f64>> Coordinates<S> for Chart<N> {
     }
 
     fn end(&self, base: &Sum<S>, rise: &S) -> Sum<S> {
-        let half = self.displacement(&(self.read(rise) * 0.5));
+        let half = self.displacement(&(self.xi(rise) * 0.5));
         self.placed(base, base.plus(rise), &(half * 2.0 + half * half))
     }
 }

@@ -7,7 +7,7 @@ use crate::algebra::fault::never_missing;
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::{ExpressionMistake, PotentialMistake, Region, Reported};
 use crate::spec::custom::{self, SELF_GRAVITY};
-use crate::spec::entries::{Piece, describe, pieces, shortened, unwrapped};
+use crate::spec::entries::{Piece, describe, pieces, placed, shortened, unwrapped};
 use crate::spec::named_potentials::{NAMED_POTENTIALS, NamedPotential};
 use crate::spec::names::{Named, nearest};
 use crate::spec::textbook;
@@ -216,18 +216,4 @@ fn unknown(name: &str) -> PotentialMistake {
         familiar: textbook::function(name),
         known,
     }
-}
-
-/// The tokens at another place.
-fn placed(tokens: TokenStream, at: Span) -> TokenStream {
-    tokens
-        .into_iter()
-        .map(|mut token| {
-            if let TokenTree::Group(group) = &token {
-                token = Group::new(group.delimiter(), placed(group.stream(), at)).into();
-            }
-            token.set_span(at);
-            token
-        })
-        .collect()
 }

@@ -9,7 +9,7 @@ use crate::lanes::equations::Equations;
 use crate::lanes::parts::in_lanes;
 use crate::roughly::{exp, ln};
 use crate::runge_kutta::{DormandPrince853, Pair};
-use crate::step_size::{FIRST_ERROR, trial as length_of_trial};
+use crate::step_size::{FIRST_ERROR, begun, trial as length_of_trial};
 use affine_core::model::StateVector;
 
 /// The start of each lane from its state at `t0` to `t_end`, which is another time; `None` where the state or its slope is
@@ -68,7 +68,6 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
     fn first_step<V: Simd>(&self, simd: V, norm: &NormInLanes<T>, slope: &S) -> T {
         let (y, span) = (self.y0, self.t_end - self.t0);
         let first = norm.rate(simd, slope, y, y);
-        let within = |h: f64| if h < span.abs() { h } else { span.abs() };
         let (mut trial, mut signed) = (T::zero(), T::zero());
         for lane in 0..T::LANES {
             let at_rest = || {
@@ -96,7 +95,8 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
             let (first, second, trial) = (first.lane(lane), second.lane(lane), trial.lane(lane));
             let fastest = if first.is_finite() && first > second { first } else { second };
             let length = allowed / fastest;
-            let length = within(if length < 100.0 * trial { length } else { 100.0 * trial });
+            let length = if length < 100.0 * trial { length } else { 100.0 * trial };
+            let length = begun(length, self.t0, span);
             lengths.set_lane(lane, if of_second.lane(lane).is_finite() { length } else { f64::NAN });
         }
         lengths
