@@ -13,7 +13,7 @@ mod symplectic;
 use std::fs;
 use std::path::Path;
 
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 use affine_runtime::prelude::*;
 use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram, reference_solution};
 
@@ -47,7 +47,7 @@ struct Reports {
 }
 
 impl Visitor for Reports {
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,

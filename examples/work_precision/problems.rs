@@ -1,6 +1,6 @@
 //! The benchmark problems: models, starts, reference ends.
 
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 use affine_runtime::prelude::*;
 
 /// Problem P1: affine in space, metrical in the body, with translation; no potential.
@@ -71,7 +71,7 @@ pub(crate) trait Visitor {
     ///
     /// # Errors
     /// Those of what is done.
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,

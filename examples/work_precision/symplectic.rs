@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use affine_runtime::Method;
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 
 use crate::equal_steps::{Curve, Curves, Motion};
 use crate::frontier::{ERRORS, least_cost};
@@ -33,7 +33,7 @@ impl Symplectic {
 }
 
 impl Visitor for Symplectic {
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,

@@ -229,9 +229,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     /// The last coefficients are neither lost nor infinite; a motion that is a polynomial of low order has none.
     #[inline(always)]
     fn is_in_range(&self) -> bool {
-        let [last, before] =
-            [self.order, self.order - 1].map(|k| sum_of_squares(self.coefficients[k].as_ref()));
-        if USUAL_SQUARES.contains(&(last + before)) {
+        let (last, before) = (&self.coefficients[self.order], &self.coefficients[self.order - 1]);
+        if USUAL_SQUARES.contains(&(sum_of_squares(last.as_ref()) + sum_of_squares(before.as_ref()))) {
             return true;
         }
         let largest = |k: usize| self.coefficients[k].as_ref().iter().map(|v| v.abs()).fold(0.0, larger);

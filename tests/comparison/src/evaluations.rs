@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use affine_runtime::Method;
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 
 use crate::equal_steps::{Curve, Motion};
 use crate::frontier::{ERRORS, least_cost};
@@ -31,7 +31,7 @@ const PINNED: [(&str, &str, [f64; 2]); 10] = [
 struct Counted(Vec<(&'static str, Curve)>);
 
 impl Visitor for Counted {
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,

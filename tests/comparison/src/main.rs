@@ -11,6 +11,8 @@
 //! measured elsewhere, which count as those of this run: they should come from a machine of its kind.
 //!
 //! `cargo run --release -p affine-comparison rhs`: times of single evaluations instead, beside the generated C.
+//!
+//! `cargo run --release -p affine-comparison peak`: which share of the arithmetic of one core is reached.
 
 mod by_hand;
 mod compiled;
@@ -21,6 +23,7 @@ mod equal_steps;
 mod evaluations;
 #[path = "../../../examples/work_precision/frontier.rs"]
 mod frontier;
+mod peak;
 mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
 mod problems;
@@ -31,7 +34,7 @@ mod tools;
 use std::fs;
 use std::time::Duration;
 
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 use affine_runtime::prelude::*;
 use affine_runtime::report::{WorkPrecision, WorkPrecisionDiagram};
 
@@ -59,6 +62,10 @@ fn main() -> affine_runtime::Result<()> {
 
 /// What went wrong outside of models, in words.
 fn compare(mut only: Vec<String>) -> affine_runtime::Result<Result<(), String>> {
+    if only.first().is_some_and(|first| first == "peak") {
+        peak::print_head();
+        return problems::visit(&mut peak::Shares).map(Ok);
+    }
     let compiled = match Compiled::start() {
         Ok(compiled) => compiled,
         Err(wrong) => return Ok(Err(wrong)),
@@ -137,7 +144,7 @@ struct Comparison {
 }
 
 impl Visitor for Comparison {
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,

@@ -3,7 +3,7 @@
 //! *Same function*: Hamilton's equations of the phase point as the model has it. *Same task*: the reduced equations,
 //! which are what is integrated.
 
-use affine_runtime::capability::InLanes;
+use affine_runtime::capability::{InLanes, Taylor};
 use affine_runtime::lanes::{F64x8, FastF64x8, Lanes};
 use affine_runtime::model::StateVector;
 
@@ -18,7 +18,7 @@ pub(crate) struct RightHandSides {
 }
 
 impl Visitor for RightHandSides {
-    fn visit<M: InLanes<3>>(
+    fn visit<M: InLanes<3, Point<f64>: Send + Sync> + Taylor<3> + Sync>(
         &mut self,
         name: &'static str,
         model: &M,
@@ -71,7 +71,7 @@ pub(crate) fn print_head() {
 }
 
 /// The reduced equations, in lanes.
-fn reduced_in_lanes<T: Lanes, M: InLanes<3>>(model: &M, start: &M::Point<f64>) -> f64 {
+pub(crate) fn reduced_in_lanes<T: Lanes, M: InLanes<3>>(model: &M, start: &M::Point<f64>) -> f64 {
     let (reduced, constants) = model.reduce(0.0, start);
     let constants = M::constants_in_lanes::<T>(&[constants]);
     let mut state = M::Reduced::<T>::zeros();

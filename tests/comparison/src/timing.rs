@@ -86,7 +86,7 @@ pub(crate) fn alone<S: AsRef<[f64]> + AsMut<[f64]> + Copy>(start: S, f: impl Fn(
 }
 
 /// Nanoseconds that some work takes at least.
-fn least(mut work: impl FnMut()) -> f64 {
+pub(crate) fn least(mut work: impl FnMut()) -> f64 {
     let mut least = f64::INFINITY;
     for _ in 0..REPEATS {
         let begin = Instant::now();

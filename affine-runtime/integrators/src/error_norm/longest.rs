@@ -39,7 +39,8 @@ impl ErrorNorm {
                 true => squares.map(|square| 0.5 * ln_of_normal(square)),
                 false => {
                     let own = self.scale(measure, range, y, y);
-                    [own, norm(parts[1]), norm(parts[2]), floor].map(ln)
+                    // Not by `map`, which is compiled apart from what it is for, and called.
+                    [ln(own), ln(norm(parts[1])), ln(norm(parts[2])), ln(floor)]
                 }
             };
             for (coefficient, j) in [(one, terms[0].1), (other, terms[1].1)] {

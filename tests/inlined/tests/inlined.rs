@@ -1,0 +1,102 @@
+//! What is compiled for wide vectors calls nothing that is compiled for others: a right-hand side, stage sums or a norm that the
+//! compiler did not inline would be there in narrow vectors, and several times as slow.
+//!
+//! In release builds alone: `cargo test --release -p affine-inlined`.
+#![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use object::{Object, ObjectSection, ObjectSymbol, Relocation, RelocationFlags, RelocationTarget, elf};
+
+/// What may be called, by beginnings of names.
+const CALLED: [&str; 22] = [
+    // Faults that cannot happen, and moves of numbers.
+    "core::panicking::",
+    "core::slice::index::",
+    "memcpy",
+    "memmove",
+    "memset",
+    // Numbers beyond those that occur, as their names say.
+    "affine_core::norm::scaled_norm",
+    "affine_core::scalar::inverse_cbrt::of_any",
+    "affine_integrators::error_norm::in_lanes::scaled",
+    "affine_integrators::runge_kutta::judged::scaled_error",
+    "libm::math::exp::exp",
+    "libm::math::log::log",
+    "affine_integrators::taylor::TaylorSteps<S,C,R>::is_in_range::{{closure}}",
+    "affine_integrators::taylor::TaylorSteps<S,C,R>::takes_a_unit",
+    // Once a run.
+    "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F>::first_step::{{closure}}",
+    // Once a step, on single numbers.
+    "<affine_integrators::nystrom::NystromSteps<S,C,R> as affine_integrators::drive::Attempt>::attempt::{{closure}}",
+    "affine_runtime::simulate::by_equations::reduced::{{closure}}::{{closure}}",
+    "affine_integrators::step_size::Controller::accept",
+    "affine_integrators::step_size::Controller::reject",
+    "<affine_integrators::runge_kutta::pair::",
+    "affine_integrators::error_norm::ErrorNorm::range",
+    "affine_integrators::error_norm::ErrorNorm::new",
+    "affine_integrators::error_norm::ErrorNorm::moved_by",
+];
+
+/// A function: where it begins and ends, and its name without hashes.
+struct Function(core::ops::Range<u64>, String);
+
+/// Of a program, those with a length.
+fn functions(file: &object::File) -> Vec<Function> {
+    let functions = file.symbols().filter(|symbol| symbol.is_definition() && symbol.size() > 0);
+    let function = |symbol: object::Symbol| {
+        let range = symbol.address()..symbol.address() + symbol.size();
+        Function(range, name(symbol.name().unwrap()))
+    };
+    functions.map(function).collect()
+}
+
+fn name(symbol: &str) -> String {
+    format!("{:#}", rustc_demangle::demangle(symbol))
+}
+
+/// What a call leads to; `None` where the place is no call.
+fn called(file: &object::File, functions: &[Function], relocation: &Relocation) -> Option<String> {
+    let calls = [elf::R_X86_64_PLT32, elf::R_X86_64_GOTPCREL, elf::R_X86_64_GOTPCRELX];
+    let RelocationFlags::Elf { r_type } = relocation.flags() else { return None };
+    let RelocationTarget::Symbol(index) = relocation.target() else { return None };
+    if !calls.contains(&r_type) {
+        return None;
+    }
+    let symbol = file.symbol_by_index(index).unwrap();
+    if let Some(name) = symbol.name().ok().filter(|name| !name.is_empty()).map(name) {
+        return Some(name);
+    }
+    // A section with a place in it, from the end of the four bytes that hold the distance.
+    let place = symbol.address().wrapping_add_signed(relocation.addend() + 4);
+    let function = functions.iter().find(|Function(range, _)| range.contains(&place));
+    Some(function.map_or(String::from("?"), |Function(_, name)| name.clone()))
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "nothing is inlined without optimisation")]
+fn nothing_is_called_that_is_not_inlined() {
+    let bytes = fs::read(env!("CARGO_BIN_EXE_steps")).unwrap();
+    let file = object::File::parse(&*bytes).unwrap();
+    let functions = functions(&file);
+    let is_wide = |name: &str| name.starts_with("pulp::x86::") && name.contains("::vectorize::");
+    let wide: Vec<&Function> = functions.iter().filter(|Function(_, name)| is_wide(name)).collect();
+    // Steps by four methods, and what is beside them, in two copies each.
+    assert!(wide.len() >= 16, "{} functions in wide vectors", wide.len());
+    let mut calls = BTreeSet::new();
+    let mut known = 0;
+    for (place, relocation) in file.sections().flat_map(|section| section.relocations()) {
+        if !wide.iter().any(|Function(range, _)| range.contains(&place)) {
+            continue;
+        }
+        let Some(target) = called(&file, &functions, &relocation) else { continue };
+        known += 1;
+        if !CALLED.iter().any(|name| target.starts_with(name)) {
+            calls.insert(target);
+        }
+    }
+    assert!(known > wide.len(), "the linker kept the places of {known} calls");
+    assert!(calls.is_empty(), "called, and not inlined: {calls:#?}");
+}
