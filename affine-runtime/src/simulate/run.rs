@@ -133,8 +133,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
-            recorder.trajectory.checkpoint =
-                Some(Box::new(Checkpoint { run, fused: FusedArithmetic::here(), place }));
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint::new(run, place)));
         }
         self.settings.events = recorder.watcher.events;
         (self.settings.progress, self.settings.observe) = (recorder.progress, recorder.observe);
@@ -149,7 +148,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         recorder: &mut Recorder<'_, '_, N, P>,
     ) -> Result<(f64, P), Setting> {
         let model = self.model.description().name;
-        if checkpoint.run != fingerprint(self.model, &self.settings, events) {
+        if !checkpoint.is_of(&fingerprint(self.model, &self.settings, events)) {
             return Err(Setting::Checkpoint { model });
         }
         if checkpoint.fused != FusedArithmetic::here() {
