@@ -61,6 +61,8 @@ pub(super) struct Place {
     pub(super) met: usize,
     /// The point at the end of that step has been recorded.
     pub(super) recorded: bool,
+    /// An event has set the centre of mass in motion.
+    pub(super) moved: bool,
 }
 
 impl Place {

@@ -156,6 +156,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         }
         let origin = checkpoint.place.origin(&self.settings.start);
         recorder.place = checkpoint.place;
+        recorder.trajectory.computation.at_rest &= !recorder.place.moved;
         recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
@@ -191,7 +192,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let cost = recorder.trajectory.statistics;
             let events = recorder.watcher.memory().to_vec();
             let recorded = recorder.trajectory.computation.stiff_since == Some(t);
-            recorder.place = Place { recorded, ..Place::starting(events, (cost, work)) };
+            let moved = !recorder.trajectory.computation.at_rest;
+            recorder.place = Place { recorded, moved, ..Place::starting(events, (cost, work)) };
             if let Some(reason) = accumulation {
                 return Err(reason);
             }

@@ -12,7 +12,7 @@ const SIDES: [Side; 2] = [Side::Negative, Side::Positive];
 
 impl Place {
     pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
-        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded } = self;
+        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded, moved } = self;
         listed(from, 0, tape, |bits, tape| tape.bits(bits));
         let begun = Memory { standing: Standing::Open, changes: Changes::default() };
         listed(events, begun, tape, remembered);
@@ -23,6 +23,7 @@ impl Place {
         tape.bits(&mut count);
         *met = count as usize;
         tape.flag(recorded);
+        tape.flag(moved);
     }
 
     /// A number by which it is known that none of it was changed.
