@@ -132,7 +132,7 @@ fn invariant<const N: usize, P: Potential<N>>(
         Class::General => place.phi,
     };
     let x = if P::POSITION { place.x } else { place.x + Vector::<N>::from_element(1.0) };
-    let energies = [potential.energy(place), potential.energy(&Place { x, phi, ..*place })];
+    let energies = [potential.energy(place), potential.energy(&Place { x, phi })];
     let [here, there] = energies;
     let size = here.abs().max(there.abs()).max(1.0);
     // NaN is no agreement.
