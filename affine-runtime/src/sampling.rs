@@ -132,7 +132,7 @@ fn invariant<const N: usize, P: Potential<N>>(
         Class::General => place.phi,
     };
     let x = if P::POSITION { place.x } else { place.x + Vector::<N>::from_element(1.0) };
-    let energies = [potential.energy(place), potential.energy(&Place { x, phi, ..*place })];
+    let energies = [potential.energy(place), potential.energy(&Place { x, phi })];
     let [here, there] = energies;
     let size = here.abs().max(there.abs()).max(1.0);
     // NaN is no agreement.
@@ -176,7 +176,7 @@ fn derived<const N: usize, P: Potential<N>>(potential: &P, place: &Place<N>) -> 
     Ok(())
 }
 
-/// `count` placements with `det phi > 0`, stretched and turned by amounts of order 1, and positions and times.
+/// `count` placements with `det phi > 0`, stretched and turned by amounts of order 1, and positions.
 pub fn places<const N: usize>(count: usize) -> impl Iterator<Item = Place<N>> {
     (0..count).map(|k| {
         let mut number = numbers(k);
@@ -185,17 +185,17 @@ pub fn places<const N: usize>(count: usize) -> impl Iterator<Item = Place<N>> {
             stretched[(a, a)] = Scalar::exp(0.6 * number());
         }
         let x = Vector::<N>::from_fn(|_, _| 2.0 * number());
-        Place { t: number(), x, phi: rotation::<N>(2 * k) * stretched * rotation::<N>(2 * k + 1) }
+        Place { x, phi: rotation::<N>(2 * k) * stretched * rotation::<N>(2 * k + 1) }
     })
 }
 
-/// The same placements with velocities of order 1.
+/// The same placements with times and velocities of order 1.
 pub fn motions<const N: usize>(count: usize) -> impl Iterator<Item = Motion<N>> {
-    places::<N>(count).enumerate().map(move |(k, Place { t, x, phi })| {
+    places::<N>(count).enumerate().map(move |(k, Place { x, phi })| {
         let mut number = numbers(count + k);
         let x_dot = Vector::<N>::from_fn(|_, _| number());
         let phi_dot = Matrix::<N>::from_fn(|_, _| number());
-        Motion { t, x, phi, x_dot, phi_dot }
+        Motion { t: number(), x, phi, x_dot, phi_dot }
     })
 }
 

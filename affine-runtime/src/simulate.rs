@@ -17,6 +17,7 @@ mod csv;
 mod cubic;
 mod dense;
 mod departure;
+mod digest;
 mod distortion;
 mod domain;
 mod ensemble;

@@ -115,4 +115,9 @@ fn what_has_no_solution_ends() {
     };
     assert!((radau.t() - 1.0).abs() < 1e-3, "{failure}: {radau:?}");
     assert_eq!(radau.advance(), Err(failure), "now and ever after");
+    // No number from `t = 1` on: there is no step, and no defect of one.
+    let mut radau = new(|t, _| [(1.0 - t).sqrt()], 2.0, 1e-6).unwrap();
+    let failure = (0..10_000).find_map(|_| radau.advance().err()).unwrap();
+    assert!((radau.t() - 1.0).abs() < 1e-3, "{radau:?}");
+    assert_eq!((failure, radau.advance()), (Failure::StepUnderflow, Err(failure)));
 }

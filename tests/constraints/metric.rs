@@ -166,3 +166,54 @@ fn of_a_moving_isochoric_body() {
 fn joined(x_dot: &Vector<2>, rows: &[f64]) -> Vec<f64> {
     x_dot.iter().chain(rows).copied().collect()
 }
+
+/// The factors between momentum and velocity on what a constraint leaves free: `j_a + j_b` on skew velocities of
+/// `1/2 tr(Oh J Oh^T)`, and for isotropic energies `I - A` on skew ones, `I + A` on symmetric ones, `I + A + n B` on the trace.
+#[test]
+fn condition_on_what_is_left_free() {
+    #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = i, space_translation = 1))]
+    struct Ball {
+        i: f64,
+    }
+    #[affine_model(dim = 2, constraint = rigid, kinetic(dalembert = i))]
+    struct Disc {
+        i: f64,
+    }
+    #[affine_model(dim = 3, constraint = rigid, kinetic(body_inertia = diag(i, 2, 3)))]
+    struct Top {
+        i: f64,
+    }
+    #[affine_model(dim = 3, constraint = conformal, kinetic(space_inertia = i, casimir2 = 0.2, casimir1_squared = 0.5))]
+    struct Swelling {
+        i: f64,
+    }
+    #[affine_model(dim = 2, constraint = conformal, kinetic(body_inertia = i, casimir2 = 0.2))]
+    struct Round {
+        i: f64,
+    }
+    #[affine_model(dim = 3, constraint = isochoric, kinetic(body_inertia = i, casimir2 = 0.2))]
+    struct Drop {
+        i: f64,
+    }
+
+    macro_rules! found {
+        ($model:ident { $i:literal }, $n:literal) => {
+            $model { i: $i }.prepare().unwrap().condition(&Matrix::<$n>::identity()).unwrap()
+        };
+    }
+    for (found, expected) in [
+        (found!(Ball { 0.25 }, 3), 1.0),
+        (found!(Disc { 0.25 }, 2), 1.0),
+        (found!(Top { 0.25 }, 3), 5.0 / 2.25),
+        (found!(Swelling { 1.0 }, 3), 2.7 / 0.8),
+        (found!(Round { 1.0 }, 2), 1.2 / 0.8),
+        (found!(Drop { 1.0 }, 3), 1.2 / 0.8),
+    ] {
+        assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+    }
+    let top = Top { i: 0.25 }.prepare().unwrap();
+    let spin = Matrix::<3>::new(0.0, -1.0, 0.5, 1.0, 0.0, 0.2, -0.5, -0.2, 0.0);
+    let run =
+        Simulation::new(&top, top.at_velocity(Matrix::identity(), spin).unwrap()).until(0.1).run().unwrap();
+    assert!(!run.why().to_string().contains("degenerate"), "{}", run.why());
+}

@@ -200,6 +200,13 @@ fn a_folder_of_another_run_is_refused() {
         fs::write(&place, format!("{manifest}{state}\n")).unwrap();
         assert_eq!(refused(elastic()), other, "{state}");
     }
+    // A number of its state is another.
+    let last = manifest.trim_end().rfind(' ').unwrap();
+    fs::write(&place, format!("{} 1\n", &manifest[..last])).unwrap();
+    assert_eq!(refused(elastic()), other);
+    fs::write(&place, [0xff, 0xfe, 0x00]).unwrap();
+    assert_eq!(refused(elastic()), other, "no text");
+    fs::write(&place, manifest).unwrap();
     // Settings are looked at before.
     let nowhere = elastic().tolerance(0.0).save("no folder", (Format::Csv, CHUNK), |_| ()).unwrap_err();
     assert!(nowhere.to_string().contains("tolerance"), "{nowhere}");

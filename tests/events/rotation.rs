@@ -263,3 +263,38 @@ fn long_steps_are_interrupted_and_gone_on_with() {
     assert_eq!(events, expected.events());
     assert_eq!(rest.end(), expected.end());
 }
+
+/// A closed form that follows upon steps is no more exact than they: the run is one by steps.
+#[test]
+fn a_closed_form_after_steps() {
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1, body_translation = 1))]
+    struct Missile;
+    type Flying = <Missile as Model<2>>::Point<f64>;
+    let rest = |point: &Flying| {
+        Missile.at_momentum(point.x(), *point.phi(), Vector::<2>::zeros(), point.sigma_hat())
+    };
+    let (x, spin) = (Vector::<2>::new(0.5, 0.2), Matrix::<2>::new(0.1, 0.3, -0.2, 0.1));
+    let moving = Missile.at_momentum(x, Matrix::identity(), x, Comoving(spin)).unwrap();
+    let run = |start: Flying| {
+        let caught = Event::new("caught", |t, _: &Flying| t - 1.0).change(move |_, point| rest(point));
+        Simulation::new(&Missile, start).until(2.0).event(caught).run().unwrap()
+    };
+    let both = run(moving);
+    assert!(both.statistics().steps > 0 && both.computation().method == Method::RungeKutta8);
+    assert!(!both.why().to_string().contains("no steps"), "{}", both.why());
+    assert_eq!(run(rest(&moving).unwrap()).computation().method, Method::ClosedForm);
+
+    // A vorticity that an event takes away has been there.
+    type Turning = <Disc as Model<2>>::Point<f64>;
+    let straight = |point: &Turning| {
+        let spin = point.sigma_hat().0.0;
+        Disc.at_momentum(*point.phi(), Comoving(spin + spin.transpose()))
+    };
+    let turning = Disc.at_momentum(Matrix::identity(), Comoving(spin)).unwrap();
+    let said = |start: Turning| {
+        let caught = Event::new("caught", |t, _: &Turning| t - 1.0).change(move |_, point| straight(point));
+        Simulation::new(&Disc, start).until(2.0).event(caught).run().unwrap().why().to_string()
+    };
+    let skew = "left out of this run: the skew factor";
+    assert!(!said(turning).contains(skew) && said(straight(&turning).unwrap()).contains(skew));
+}

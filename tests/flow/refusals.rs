@@ -83,6 +83,25 @@ fn times_that_are_none() {
     }
 }
 
+/// A frame that is lost in the rounding of the time would be one that never ends: a loop waits for it in vain.
+#[test]
+fn frames_that_are_lost_in_rounding() {
+    let cube = block(9.81);
+    let start = thrown(&cube);
+    for method in [Method::RungeKutta8, Method::Splitting { order: 2, step: 0.01 }] {
+        let mut flow = Flow::by(method, &cube, (1e16, start)).unwrap();
+        for dt in [0.1, -0.1] {
+            let stop = flow.advance(dt).unwrap_err();
+            let lost = Setting::Step { given: 0.1, t0: 1e16, t_end: 1e16 };
+            assert_eq!(stop.reason, Reason::Setting(lost), "{stop}");
+            assert_eq!((flow.t(), flow.point()), (1e16, start));
+        }
+        flow.advance(0.0).unwrap();
+        flow.set_time(0.0).unwrap();
+        flow.advance(0.1).unwrap();
+    }
+}
+
 /// A frame so long that its equal steps cannot be counted, or that takes more steps than are allowed.
 #[test]
 fn frames_that_are_too_long() {

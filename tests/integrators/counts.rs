@@ -14,8 +14,9 @@ struct Asked;
 
 impl Potential<3> for Asked {
     const CLASS: Class = Class::Isotropic;
-    fn energy<T: Scalar>(&self, place: &Place<3, T>) -> T {
-        let square = place.phi.iter().fold(T::zero(), |sum, entry| sum + *entry * *entry);
+    // All that a potential is told. Of the time it knows nothing, for `H` is conserved under it.
+    fn energy<T: Scalar>(&self, Place { x: _, phi }: &Place<3, T>) -> T {
+        let square = phi.iter().fold(T::zero(), |sum, entry| sum + *entry * *entry);
         (square - T::constant(3.0, 0.0)) * T::constant(0.5, 0.0)
     }
     fn slopes<T: Scalar>(&self, place: &Place<3, T>) -> Slopes<3, T> {

@@ -3,7 +3,9 @@
 use core::ops::ControlFlow;
 
 use affine_runtime::capability::SecondOrderEquations;
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 use affine_runtime::simulate::Reason;
 
 #[affine_model(
@@ -189,9 +191,32 @@ fn what_was_not_emitted_is_named() {
     assert!(run.why().to_string().contains("Runge-Kutta of order 5"), "{}", run.why());
 }
 
-/// Which equations are of second order is a fact of the model, asked for or not.
+/// A force of positions alone, whose work depends on velocities.
+#[derive(Clone, Debug)]
+struct Pull;
+
+impl Force<2> for Pull {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        -motion.x
+    }
+}
+
+/// Which equations are of second order is a fact of the model, asked for or not: `why` names no `emit(..)` that would be refused.
 #[test]
 fn what_is_of_second_order_says_so() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = tr(G)/2,
+        forces = custom(pull, translation, position)
+    )]
+    #[derive(Clone, Debug)]
+    struct Kicked {
+        pull: Pull,
+    }
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2*(2 + cos(t)))]
+    struct Shaken;
     #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2)]
     struct Plain;
     #[affine_model(dim = 2, kinetic(body_inertia = 1), potential = tr(G)/2)]
@@ -204,7 +229,7 @@ fn what_is_of_second_order_says_so() {
     struct Incompressible;
     #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr(G)/2, dissipation(body_inertia = 1))]
     struct Damped;
-    let facts = [Anchored::DESCRIPTION, Partly::DESCRIPTION, Plain::DESCRIPTION];
+    let facts = [Anchored::DESCRIPTION, Partly::DESCRIPTION, Plain::DESCRIPTION, Shaken::DESCRIPTION];
     assert!(facts.iter().all(|description| description.second_order));
     let facts = [
         Affine::DESCRIPTION,
@@ -212,6 +237,7 @@ fn what_is_of_second_order_says_so() {
         Pushed::DESCRIPTION,
         Incompressible::DESCRIPTION,
         Damped::DESCRIPTION,
+        Kicked::DESCRIPTION,
     ];
     for description in facts {
         assert!(!description.second_order, "{}", description.name);

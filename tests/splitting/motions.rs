@@ -251,6 +251,50 @@ fn outputs_leave_the_steps_as_they_are() {
     assert!(why.contains("splitting of order 4") && why.contains("a Poisson map"), "{why}");
 }
 
+/// Friction takes the energy, and a drive changes it: `why` claims neither that it is kept nor that it is bounded.
+#[test]
+fn what_is_said_of_the_energy() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), dissipation(dalembert = 1), emit(splitting))]
+    struct Damped;
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = (2 + cos(t))*tr(G))]
+    struct Shaken;
+
+    let said = |run: &dyn Fn(Method) -> String| {
+        let fixed = run(Method::Splitting { order: 4, step: 0.1 });
+        (fixed, run(Method::AdaptiveSplitting { order: None }))
+    };
+    let by_gauss = Method::Gauss { stages: 2, step: 0.1 };
+    let start = Vibrating.at_momentum(phi3(), Comoving(spin3())).unwrap();
+    let (fixed, adaptive) = said(&|method| run(&Vibrating, start, 0.5, method).why().to_string());
+    assert!(fixed.contains("energy error stays bounded") && adaptive.contains("the energy is kept to"));
+    let start = Driven.at_momentum(phi2(), Comoving(spin2())).unwrap();
+    let (fixed, adaptive) = said(&|method| run(&Driven, start, 0.5, method).why().to_string());
+    assert!(fixed.contains("a Poisson map") && !(fixed + &adaptive).contains("energy"));
+    let start = Damped.at_momentum(phi2(), Comoving(spin2())).unwrap();
+    let (fixed, adaptive) = said(&|method| run(&Damped, start, 0.5, method).why().to_string());
+    assert!(adaptive.contains("energy and work balance to the tolerance"), "{adaptive}");
+    let claims = ["Casimirs", "the energy"];
+    assert!(
+        !claims.into_iter().any(|claim| (fixed.clone() + &adaptive).contains(claim)),
+        "{fixed}{adaptive}"
+    );
+    let gauss = run(&Damped, start, 0.5, by_gauss).why().to_string();
+    assert!(gauss.contains("symplectic but for forces that no potential has"), "{gauss}");
+    // Its work is integrated beside canonical variables.
+    let start = Shaken.at_momentum(phi2(), Comoving(spin2())).unwrap();
+    let gauss = run(&Shaken, start, 0.5, by_gauss).why().to_string();
+    assert!(gauss.contains("the reduced variables are canonical") && !gauss.contains("energy"), "{gauss}");
+}
+
+/// Steps of a motion that has a closed form leave out no integration.
+#[test]
+fn what_is_left_out_by_steps() {
+    let start = Missile.at_momentum(x3(), phi3(), Vector::zeros(), Comoving(spin3())).unwrap();
+    let why = |method| run(&Missile, start, 0.5, method).why().to_string();
+    assert!(why(Method::Automatic).contains("left out of the model: integration"));
+    assert!(!why(Method::Splitting { order: 4, step: 0.1 }).contains("integration"));
+}
+
 #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1), potential = tr(G))]
 struct Plain;
 

@@ -204,6 +204,18 @@ fn what_runs_and_why() {
     assert!(halt.contains("Plain was not given `taylor`: write `emit(taylor)`"), "{halt}");
 }
 
+/// Stretches are called for, of which no series is known: `emit(taylor)` would be refused, and is not named.
+#[test]
+fn what_has_no_series_is_not_named() {
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1), potential = q1^4 + q2^4)]
+    struct Single;
+
+    let start = Single.at_momentum(Matrix::<2>::identity(), Comoving(Matrix::<2>::identity())).unwrap();
+    let why = Simulation::new(&Single, start).until(0.1).tolerance(1e-12).run().unwrap().why().to_string();
+    assert!(why.contains("Runge-Kutta of order 8") && !why.contains("not emitted"), "{why}");
+    assert!(!Single::DESCRIPTION.series && Plain::DESCRIPTION.series);
+}
+
 #[test]
 fn orders_out_of_range_are_refused() {
     for order in [0, 1, 33] {

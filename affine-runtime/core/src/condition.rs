@@ -5,7 +5,6 @@ use crate::description::Description;
 use crate::matrix::Matrix;
 use crate::quantity::Quantity;
 use crate::scalar::Scalar;
-use crate::system::StateVector;
 
 /// Most directions that are free, those of `gl(3)`.
 const MOST: usize = 9;
@@ -19,18 +18,18 @@ const SWEEPS: usize = 30;
 /// The directions are those on which isotropic energies are multiples of the identity: traceless symmetric, skew, trace.
 /// They have whole entries, so that of momenta along one of them nothing is left over for the others.
 ///
-/// `velocity` gives `phi_dot` of a plain array, in bases in which the metrics are the identity.
-pub(crate) fn condition<const N: usize, S: StateVector<f64>>(
+/// `velocity` gives `phi_dot` of an affine momentum at `phi`, in bases in which the metrics are the identity.
+pub(crate) fn condition<const N: usize>(
     description: &Description,
     phi: &Matrix<N>,
-    velocity: impl Fn(&S) -> Matrix<N>,
+    velocity: impl Fn(&Matrix<N>) -> Matrix<N>,
 ) -> Option<f64> {
     let (directions, count) = directions::<N>(free(description));
     let directions = &directions[..count];
     let inverse = phi.try_inverse()?;
     let mut columns = [[0.0; MOST]; MOST];
     for (u, column) in directions.iter().zip(&mut columns) {
-        let velocity = linear_part(description, &velocity, (phi, &inverse), u)?;
+        let velocity = linear_part(description, &velocity, &inverse, u)?;
         for (v, entry) in directions.iter().zip(column.iter_mut()) {
             *entry = v.dot(&velocity) / (Scalar::sqrt(u.dot(u)) * Scalar::sqrt(v.dot(v)));
         }
@@ -81,10 +80,10 @@ fn directions<const N: usize>([symmetric, skew, trace]: Free) -> ([Matrix<N>; MO
 }
 
 /// The part of the velocity that is odd in the momentum, in the frame of the momentum.
-fn linear_part<const N: usize, S: StateVector<f64>>(
+fn linear_part<const N: usize>(
     description: &Description,
-    velocity: &impl Fn(&S) -> Matrix<N>,
-    (phi, inverse): (&Matrix<N>, &Matrix<N>),
+    velocity: &impl Fn(&Matrix<N>) -> Matrix<N>,
+    inverse: &Matrix<N>,
     momentum: &Matrix<N>,
 ) -> Option<Matrix<N>> {
     let is_affine = |quantity: &Quantity| {
@@ -92,20 +91,7 @@ fn linear_part<const N: usize, S: StateVector<f64>>(
     };
     let frame = description.full.iter().map(|group| group.quantity).find(is_affine)?;
     let along = |sign: f64| {
-        let mut full = S::zeros();
-        let mut start = 0;
-        for group in description.full {
-            let values = &mut full.as_mut()[start..start + group.len];
-            start += group.len;
-            let matrix = match group.quantity {
-                Quantity::Placement => *phi,
-                quantity if quantity == frame => momentum * sign,
-                _ => continue,
-            };
-            let by_rows = (0..N * N).map(|k| matrix[(k / N, k % N)]);
-            values.iter_mut().zip(by_rows).for_each(|(value, entry)| *value = entry);
-        }
-        let phi_dot = velocity(&full);
+        let phi_dot = velocity(&(momentum * sign));
         match frame {
             Quantity::ComovingAffineSpin => inverse * phi_dot,
             Quantity::AffineSpin => phi_dot * inverse,

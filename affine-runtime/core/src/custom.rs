@@ -92,7 +92,6 @@ pub fn translational_force<
 }
 
 fn place<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> Place<N, T> {
@@ -107,28 +106,26 @@ fn place<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Po
         );
     }
     let x = if POSITION { x.into() } else { Vector::from([T::zero(); N]) };
-    Place { t, x, phi: matrix(phi) }
+    Place { x, phi: matrix(phi) }
 }
 
 /// `U`.
 #[inline]
 pub fn potential_energy<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
     potential: &P,
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> T {
-    potential.energy(&place::<N, CLASS, POSITION, T, P>(t, x, phi))
+    potential.energy(&place::<N, CLASS, POSITION, T, P>(x, phi))
 }
 
 /// `dU/dx` and `dU/dphi`.
 #[inline]
 pub fn potential_slopes<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
     potential: &P,
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> ([T; N], Rows<N, T>) {
-    let Slopes { x, phi } = potential.slopes(&place::<N, CLASS, POSITION, T, P>(t, x, phi));
+    let Slopes { x, phi } = potential.slopes(&place::<N, CLASS, POSITION, T, P>(x, phi));
     (components(&x), rows(&phi))
 }

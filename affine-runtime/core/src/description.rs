@@ -43,6 +43,8 @@ pub struct Description {
     pub constraint: Option<Constraint>,
     /// Are the reduced equations `q'' = f(t, q)`, as `emit(nystrom)` integrates them?
     pub second_order: bool,
+    /// Are the reduced equations operations alone, as `emit(taylor)` takes their series?
+    pub series: bool,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub domain: &'static [Guard],
@@ -75,8 +77,8 @@ pub enum Scope {
     Reduction,
     /// Those by methods that integrate what the reduced state carries along, see [`Model::renewed`](crate::Model::renewed).
     Carried,
-    /// Those with `p = 0`.
-    Rest,
+    /// Those in closed form.
+    ClosedForm,
 }
 
 /// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions

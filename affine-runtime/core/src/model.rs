@@ -7,7 +7,7 @@ pub use crate::constraint::Constraint;
 pub use crate::description::{
     Bound, Component, Conserved, Description, Entry, Formula, Guard, LeftOut, Operations, Scope,
 };
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, Vector};
 use crate::metrics::{Bases, Tensor};
 pub use crate::quantity::{Group, Quantity};
 pub use crate::regularity::Regularity;
@@ -110,9 +110,13 @@ pub trait Model<const N: usize> {
             Some(_) => self.bases().map_or(*phi, |bases| bases.placement(phi)),
             None => Matrix::<N>::identity(),
         };
-        condition(&Self::DESCRIPTION, &phi, |full: &Self::Full<f64>| {
-            let velocity = self.velocity(&self.unflatten(full));
-            self.bases().map_or(velocity, |bases| bases.velocity(&velocity)).phi_dot
+        let at_rest = self.unflatten(&Self::Full::<f64>::zeros());
+        condition(&Self::DESCRIPTION, &phi, |momentum| {
+            let Some(bases) = self.bases() else {
+                return self.velocity(&at_rest.moved(Vector::zeros(), phi, |_| *momentum)).phi_dot;
+            };
+            let point = at_rest.in_orthonormal(Some(&bases)).moved(Vector::zeros(), phi, |_| *momentum);
+            bases.velocity(&self.velocity(&Self::Point::from_orthonormal(&point, &bases))).phi_dot
         })
     }
 

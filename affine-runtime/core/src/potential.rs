@@ -3,11 +3,10 @@
 use crate::frames::{Matrix, Vector};
 use crate::scalar::Scalar;
 
-/// What a potential is told: a placement at a time, in the bases that the user states the model in, whatever its metrics.
+/// What a potential is told: a placement, in the bases that the user states the model in, whatever its metrics. It is told no
+/// time, since `H` is conserved under it: what changes with the time is a formula in `t`, or a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place<const N: usize, T = f64> {
-    /// Time.
-    pub t: T,
     /// Position of the centre of mass; zero for a potential without `position`, whatever the motion.
     pub x: Vector<N, T>,
     /// Placement.

@@ -110,7 +110,8 @@ impl Control {
                 }
                 None => {
                     self.length = AFTER_NO_SOLUTION * tried;
-                    Failure::NoSolution { residual: f64::NAN }
+                    // However short: there is no one step of which a defect could be told.
+                    Failure::StepUnderflow
                 }
             };
             self.statistics.rejected += 1;

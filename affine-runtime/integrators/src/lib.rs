@@ -78,10 +78,10 @@ pub mod __private {
 pub enum Failure {
     /// The right-hand side, or a step however short, gives numbers that are not finite.
     NotFinite,
-    /// The error stays above the tolerance however short the step: a singularity, or a tolerance that rounding
-    /// does not allow.
+    /// The error stays above the tolerance, or the equations of an implicit step without solution, however short the step: a
+    /// singularity, or a tolerance that rounding does not allow.
     StepUnderflow,
-    /// The equations of an implicit step have no solution, or none that the iteration finds: the step is too long.
+    /// The equations of one of equal steps have no solution, or none that the iteration finds: the step is too long.
     NoSolution {
         /// The least defect met, relative to the largest component of the state.
         residual: f64,

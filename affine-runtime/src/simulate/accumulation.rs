@@ -1,6 +1,5 @@
 //! Changes of the point that accumulate at a time.
 
-#[cfg(feature = "csv")]
 use crate::inner::Tape;
 
 /// Part of the time that a sequence of changes has taken which may be left of it where it is taken to accumulate: bounces of
@@ -37,7 +36,6 @@ impl Default for Changes {
 
 impl Changes {
     /// Hands over, or takes back, what is known.
-    #[cfg(feature = "csv")]
     pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
         let Self { count, at_one_time, in_step, past } = self;
         tape.bits(count);

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "csv")]
 mod line;
+mod numbers;
 
 use super::standing::Memory;
 use crate::inner::Tape;
@@ -20,6 +21,22 @@ pub struct Checkpoint {
     /// The arithmetic of the machine.
     pub(super) fused: FusedArithmetic,
     pub(super) place: Place,
+    /// That of the place.
+    digest: u64,
+}
+
+impl Checkpoint {
+    /// Of a run here.
+    pub(super) fn new(run: String, place: Place) -> Self {
+        let digest = place.digest();
+        Self { run, fused: FusedArithmetic::here(), place, digest }
+    }
+
+    /// Is it of the run that is known by this, and as it was written? Of numbers that were not written an integrator makes
+    /// anything.
+    pub(super) fn is_of(&self, run: &str) -> bool {
+        self.run == run && self.place.digest() == self.digest
+    }
 }
 
 /// How far a run has come.
@@ -44,6 +61,8 @@ pub(super) struct Place {
     pub(super) met: usize,
     /// The point at the end of that step has been recorded.
     pub(super) recorded: bool,
+    /// An event has set the centre of mass in motion.
+    pub(super) moved: bool,
 }
 
 impl Place {

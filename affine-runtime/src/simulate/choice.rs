@@ -6,7 +6,7 @@ use super::layout::carries_dilatation;
 use super::method::Method;
 use super::range::in_range;
 use super::stiffness::{Trial, stiffness};
-use crate::model::Model;
+use crate::model::{Description, Model};
 use crate::state::Phase;
 
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: above it they cost more at
@@ -40,7 +40,8 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     };
     choice.evaluations += evaluations;
     choice.stiffness = stiffness;
-    let has_series = M::DESCRIPTION.constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
+    let Description { constraint, series, second_order, .. } = M::DESCRIPTION;
+    let has_series = series && constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
     choice.method = match course.method {
         Method::Automatic if choice.friction.is_some() => Method::Radau { stages: None },
         Method::Automatic if by_halves && M::second_order(model).is_some() => {
@@ -55,9 +56,7 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
         asked => asked,
     };
     choice.missing = match (course.method, choice.method) {
-        (Method::Automatic, Method::RungeKutta8 | Method::Taylor { .. })
-            if by_halves && M::DESCRIPTION.second_order =>
-        {
+        (Method::Automatic, Method::RungeKutta8 | Method::Taylor { .. }) if by_halves && second_order => {
             Some("nystrom")
         }
         (Method::Automatic, Method::RungeKutta8) if has_series => Some("taylor"),

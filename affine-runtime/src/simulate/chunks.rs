@@ -28,11 +28,13 @@ impl Folder {
         model: &'static str,
     ) -> Result<(Self, Vec<String>)> {
         let place = path.join("manifest.txt");
-        let opened = fs::create_dir_all(path).and_then(|()| match fs::read_to_string(&place) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
+        let opened = fs::create_dir_all(path).and_then(|()| match fs::read(&place) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
             read => read,
         });
-        let text = opened.map_err(|error| failed(&place, &error))?;
+        let bytes = opened.map_err(|error| failed(&place, &error))?;
+        // What is no text was not written here.
+        let text = String::from_utf8(bytes).map_err(|_| Setting::Checkpoint { model })?;
         // A line that has no end was under way.
         let mut lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n'));
         if lines.next().is_some_and(|first| first != run) {

@@ -96,10 +96,14 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// The closed form at the output times.
     pub(super) fn evaluate(&mut self, geodesic: &Geodesic<N>, course: &Course<'_, P>) -> Result<(), Reason> {
         let Course { t0, start, t_end, .. } = *course;
+        let has_stepped = self.trajectory.statistics.steps > 0;
         let computation = &mut self.trajectory.computation;
-        computation.method = Method::ClosedForm;
-        computation.no_whirl =
+        // What was left of a motion in steps is no more exact than they.
+        computation.method = if has_stepped { computation.method } else { Method::ClosedForm };
+        let no_whirl =
             matches!(geodesic.motion, Orbit::Body { whirl: None, .. } | Orbit::Space { whirl: None, .. });
+        // Nor before an event that has changed the point.
+        computation.no_whirl = no_whirl && (t0 == self.origin || computation.no_whirl);
         let model = self.model;
         let motion = ClosedForm::begin(model, *geodesic, (t0, *start), t_end);
         let at = |t| motion.at(model, t);

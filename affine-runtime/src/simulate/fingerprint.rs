@@ -1,5 +1,6 @@
 //! By what a checkpoint knows the run that it is of.
 
+use super::digest::Digest;
 use super::mechanics::Mechanics;
 use super::output::Output;
 use super::settings::Settings;
@@ -55,22 +56,3 @@ fn elsewhere<const N: usize, P: Phase<N>>(start: &P) -> P {
 
 /// In parts of the largest entry, too small to turn a placement inside out that is not thin.
 const SHIFTS: [f64; 7] = [0.031, -0.013, 0.021, 0.017, 0.043, -0.011, 0.027];
-
-/// After the hash of Fowler, Noll and Vo (FNV-1a), by words in place of bytes, and turned, so that high bits of a number
-/// reach all bits of the sum. The hashes of the standard library may differ from version to version.
-struct Digest(u64);
-
-impl Digest {
-    fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    fn word(&mut self, word: u64) {
-        self.0 = (self.0 ^ word).wrapping_mul(0x0100_0000_01b3).rotate_left(23);
-    }
-
-    /// All that are not a number are one.
-    fn number(&mut self, number: f64) {
-        self.word(if number.is_nan() { u64::MAX } else { number.to_bits() });
-    }
-}

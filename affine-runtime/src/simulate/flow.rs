@@ -8,7 +8,7 @@ use super::methods::{automatic, named};
 use super::motion::{PointOf, Stepping};
 use super::settings::Plan;
 use super::stepped::Stepped;
-use crate::error::{Reason, Stop};
+use crate::error::{Reason, Setting, Stop};
 use crate::integrate::Statistics;
 use crate::model::{Handle, Model};
 
@@ -94,9 +94,14 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Flow<'a, N, H> {
     /// Moves on by a time, forward or backward; by none it stays.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to).
+    /// As [`advance_to`](Self::advance_to); [`Setting::Step`](super::Setting::Step) for a time that is lost in the rounding of
+    /// [`t`](Self::t).
     pub fn advance(&mut self, dt: f64) -> Result<(), Stop> {
-        self.advance_to(self.t() + dt)
+        let (t0, t_end) = (self.t(), self.t() + dt);
+        if t_end == t0 && dt != 0.0 {
+            return Err(self.stopped(Setting::Step { given: dt.abs(), t0, t_end }.into()));
+        }
+        self.advance_to(t_end)
     }
 
     /// Moves to a time, earlier or later, which is reached exactly.

@@ -15,6 +15,9 @@ const MOST_HALVINGS: u32 = 5;
 const NEAR_THE_BOUND: f64 = 1024.0;
 /// Times are known to a few roundings, and the motion changes by its size within a step.
 const ROUNDINGS: f64 = 4.0;
+/// A part of the interval by which a value beside a Chebyshev point does not differ from that there. Reciprocals of smaller ones
+/// may be no numbers.
+const NEXT_TO_A_POINT: f64 = 1e-150;
 /// What an error of a momentum may move the placement by within a step is a part of the placement's own error, as for steps:
 /// see [`ErrorNorm`](affine_integrators::ErrorNorm).
 const PART_OF_DISPLACEMENT: f64 = 0.1;
@@ -53,7 +56,7 @@ fn interpolated(part: f64, degree: usize, value: impl Fn(usize) -> Numbers) -> N
     let (mut sum, mut weights) = ([0.0; 24], 0.0);
     for k in 0..=degree {
         let distance = part - chebyshev(k, degree);
-        if distance == 0.0 {
+        if distance.abs() < NEXT_TO_A_POINT {
             return value(k);
         }
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
@@ -247,6 +250,8 @@ mod tests {
             assert_eq!(pieces[0].at(to)[0], motion(to - from), "the ends are kept");
             assert_eq!(pieces[0].values.len(), 5 * 12, "numbers of two dimensions");
         }
+        let (pieces, _) = covered(motion, (0.0, 1.0), 1e-13);
+        assert_eq!(pieces[0].at(5e-324)[0], 1.0, "beside an end");
     }
 
     #[test]

@@ -133,8 +133,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };
             let place = place.from(origin.0, &origin.1);
             let run = fingerprint(self.model, &self.settings, &events);
-            recorder.trajectory.checkpoint =
-                Some(Box::new(Checkpoint { run, fused: FusedArithmetic::here(), place }));
+            recorder.trajectory.checkpoint = Some(Box::new(Checkpoint::new(run, place)));
         }
         self.settings.events = recorder.watcher.events;
         (self.settings.progress, self.settings.observe) = (recorder.progress, recorder.observe);
@@ -149,7 +148,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         recorder: &mut Recorder<'_, '_, N, P>,
     ) -> Result<(f64, P), Setting> {
         let model = self.model.description().name;
-        if checkpoint.run != fingerprint(self.model, &self.settings, events) {
+        if !checkpoint.is_of(&fingerprint(self.model, &self.settings, events)) {
             return Err(Setting::Checkpoint { model });
         }
         if checkpoint.fused != FusedArithmetic::here() {
@@ -157,6 +156,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         }
         let origin = checkpoint.place.origin(&self.settings.start);
         recorder.place = checkpoint.place;
+        recorder.trajectory.computation.at_rest &= !recorder.place.moved;
         recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
@@ -192,7 +192,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let cost = recorder.trajectory.statistics;
             let events = recorder.watcher.memory().to_vec();
             let recorded = recorder.trajectory.computation.stiff_since == Some(t);
-            recorder.place = Place { recorded, ..Place::starting(events, (cost, work)) };
+            let moved = !recorder.trajectory.computation.at_rest;
+            recorder.place = Place { recorded, moved, ..Place::starting(events, (cost, work)) };
             if let Some(reason) = accumulation {
                 return Err(reason);
             }

@@ -19,6 +19,15 @@ const HALF_LOST: f64 = 1e-8;
 /// Condition numbers from here on take more than half the digits.
 const WORTH_SAYING: f64 = 1e8;
 
+/// What symplectic steps make of an energy that is conserved.
+const BOUNDED: &str = "; the energy error stays bounded while steps resolve the motion";
+/// What pieces of a Hamiltonian keep.
+const KEPT_BY_PIECES: &str = "momenta that every piece conserves (p, spin, vorticity, angular momenta, where the model \
+     conserves them) and Casimirs";
+/// What pieces are beside forces that no potential has, and what they keep.
+const PIECES_WITH_WORK: &str = "kicks of forces and the fading of momenta by friction are pieces among the symplectic ones, and \
+     their work is exact in each; kept up to rounding: momenta that every piece conserves";
+
 /// Why a trajectory was computed the way it was; displays as text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Why {
@@ -144,17 +153,12 @@ impl Why {
             }
         )?;
         if has_work(self.description) {
-            return writeln!(
-                f,
-                "kicks of forces and the fading of momenta by friction are pieces among the symplectic ones, and their work is exact \
-                 in each; kept up to rounding: momenta that every piece conserves"
-            );
+            return writeln!(f, "{PIECES_WITH_WORK}");
         }
         writeln!(
             f,
-            "symplectic: a Poisson map; kept up to rounding: momenta that every piece conserves (p, spin, vorticity, \
-             angular momenta, where the model conserves them) and Casimirs; the energy error stays bounded while steps \
-             resolve the motion"
+            "symplectic: a Poisson map; kept up to rounding: {KEPT_BY_PIECES}{}",
+            self.of_energy(BOUNDED)
         )?;
         if self.computation.closed_form_exists {
             return Ok(());
@@ -177,11 +181,19 @@ impl Why {
             (None, true) => writeln!(f, "as asked for; Method::Automatic would take the closed form"),
             (None, false) => writeln!(f, "as asked for"),
         }?;
+        if has_work(self.description) {
+            return writeln!(f, "{PIECES_WITH_WORK}; energy and work balance to the tolerance");
+        }
+        let energy = self.of_energy(": the energy is kept to the tolerance");
         writeln!(
             f,
-            "kept up to rounding: momenta that every piece conserves (p, spin, vorticity, angular momenta, where the model \
-             conserves them) and Casimirs; not symplectic, since steps follow the error: the energy is kept to the tolerance"
+            "kept up to rounding: {KEPT_BY_PIECES}; not symplectic, since steps follow the error{energy}"
         )
+    }
+
+    /// What is said of the energy, where that is conserved.
+    fn of_energy(&self, words: &'static str) -> &'static str {
+        if self.description.conserved.contains(&Conserved::Energy) { words } else { "" }
     }
 
     /// The group on which the steps were taken.
@@ -225,10 +237,8 @@ impl Why {
             "kept up to rounding: linear and quadratic first integrals{of} of the reduced equations"
         )?;
         if self.is_canonical() && self.description.constraint.is_none() {
-            writeln!(
-                f,
-                "symplectic: the reduced variables are canonical; the energy error stays bounded while steps resolve the motion"
-            )
+            let but = if has_work(self.description) { " but for forces that no potential has" } else { "" };
+            writeln!(f, "symplectic{but}: the reduced variables are canonical{}", self.of_energy(BOUNDED))
         } else {
             writeln!(
                 f,
@@ -248,9 +258,9 @@ impl Why {
             && (holds(Quantity::Position) || !holds(Quantity::LinearMomentum));
         let is_canonical = |quantity: Quantity| {
             use Quantity::{CanonicalMomentum, LinearMomentum, Placement, Position};
-            // Functions of `det phi` that are integrated beside the placement follow from it.
+            // Functions of `det phi` that are integrated beside the placement follow from it, and nothing follows from the work.
             matches!(quantity, Position | Placement | LinearMomentum | CanonicalMomentum)
-                || matches!(quantity, Quantity::InverseDilatation | Quantity::MeanLogStretch)
+                || matches!(quantity, Quantity::InverseDilatation | Quantity::MeanLogStretch | Quantity::Work)
         };
         paired && groups.iter().all(|group| is_canonical(group.quantity))
     }
@@ -270,7 +280,7 @@ impl Why {
 
     /// Is what this kind of run leaves out left out of this one?
     fn leaves_out(&self, scope: Scope) -> bool {
-        let Computation { method, at_rest, .. } = self.computation;
+        let Computation { method, .. } = self.computation;
         let is_reduced = !matches!(method, Method::ClosedForm | Method::Rattle { .. });
         // The others compute it from the rest of the state.
         let integrates_all =
@@ -279,7 +289,7 @@ impl Why {
             Scope::Model => true,
             Scope::Reduction => is_reduced,
             Scope::Carried => integrates_all,
-            Scope::Rest => at_rest,
+            Scope::ClosedForm => method == Method::ClosedForm,
         }
     }
 

@@ -66,6 +66,7 @@ const fn description(name: &'static str) -> Description {
         reduced_operations: NOTHING,
         constraint: None,
         second_order: false,
+        series: true,
         domain: &[],
         angles: &[],
         left_out: &[],

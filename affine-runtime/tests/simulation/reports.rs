@@ -1,8 +1,10 @@
 //! What a trajectory tells about itself.
 
+use affine_runtime::__private::point as point_of;
 use affine_runtime::Error;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
+use affine_runtime::state::Centre;
 
 use crate::models::drunk_missile::{self, DrunkMissile};
 use crate::models::planar::{self, Planar};
@@ -32,6 +34,27 @@ fn at_rest_more_is_conserved() {
     assert!(conservation.of(Conserved::LinearMomentum).is_none(), "{conservation}");
     assert!(conservation.worst() < 1e-9, "{conservation}");
     assert!(run.why().to_string().contains("p = 0"), "{}", run.why());
+}
+
+/// What an event has set in motion does not rest after an interruption: neither more is conserved then.
+#[test]
+fn at_rest_until_it_is_pushed() {
+    type Point = <DrunkMissile as Model<3>>::Point<f64>;
+    let push = |_: f64, point: &Point| {
+        let centre = Centre { x: point.x(), p: Vector::<3>::new(0.3, -0.2, 0.5) };
+        Ok(point_of(*point.phi(), point.sigma_hat(), centre))
+    };
+    let pushed = || {
+        let at_one = Event::new("push", |t, _: &Point| t - 1.0);
+        Simulation::new(&DrunkMissile, drunk_missile::start_at_rest()).until(3.0).event(at_one.change(push))
+    };
+    let whole = pushed().run().unwrap();
+    let steps = whole.statistics().steps - 1;
+    let halt = pushed().max_steps(steps).run().unwrap_err();
+    let rest = pushed().resume(halt.trajectory.checkpoint().unwrap()).run().unwrap();
+    assert_eq!(rest.end(), whole.end());
+    assert!(!rest.why().to_string().contains("p = 0"), "{}", rest.why());
+    assert!(rest.conservation().of(Conserved::AffineSpin).is_none(), "{}", rest.conservation());
 }
 
 /// A body that is dropped has `p = 0` at the start alone.

@@ -175,6 +175,38 @@ fn checkpoints_are_written_and_read() {
     assert_eq!(&read, checkpoint);
 }
 
+/// Numbers are missing, or too many, or others: of none of it a run is made.
+#[test]
+#[cfg(feature = "serde")]
+fn a_checkpoint_that_was_edited_is_refused() {
+    use serde_json::{Value, json};
+    let simulation = || eventful(whole(Method::RungeKutta8)).every(0.1);
+    let halt = simulation().max_steps(2).run().unwrap_err();
+    let written = serde_json::to_value(halt.trajectory.checkpoint().unwrap()).unwrap();
+    let goes_on = |edited: &Value| {
+        let checkpoint: Checkpoint = serde_json::from_value(edited.clone()).unwrap();
+        simulation().resume(&checkpoint).run().map_err(|halt| halt.stop.reason)
+    };
+    assert!(goes_on(&written).is_ok());
+    let others = |value: &Value| match value {
+        Value::Array(list) if list.len() == 5 && list[0].is_u64() => vec![json!([u64::MAX, 0, 0, 0, 0])],
+        Value::Array(list) => {
+            let (shorter, longer) = (&list[..list.len() - 1], [list.as_slice(), &list[..1]].concat());
+            vec![json!(shorter), json!(longer)]
+        }
+        Value::Bool(flag) => vec![json!(!flag)],
+        number => vec![json!(number.as_u64().unwrap() ^ 1), json!(u64::MAX)],
+    };
+    for (name, value) in written["place"].as_object().unwrap() {
+        for other in others(value) {
+            let mut edited = written.clone();
+            edited["place"][name] = other;
+            let refused = Reason::Setting(Setting::Checkpoint { model: "Planar" });
+            assert_eq!(goes_on(&edited).unwrap_err(), refused, "{name}");
+        }
+    }
+}
+
 #[test]
 #[cfg(feature = "serde")]
 fn a_run_that_goes_on_in_another_class_of_arithmetic_says_so() {

@@ -30,20 +30,27 @@ impl Equations {
         self.groups.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
-    /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`?
+    /// Are they `q' = V(p)`, `p' = F(t, q)`, that is `q'' = f(t, q)`? A force that has no potential makes a work besides, which
+    /// depends on velocities even where the force does not.
     pub fn is_second_order(&self) -> bool {
         let (positions, momenta) = (
             self.of(&[Quantity::Position, Quantity::Placement]),
             self.of(&[Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
         );
+        let work = self.of(&[Quantity::Work]);
         let read_by = |group: &[(Symbol, Value)]| -> Vec<Symbol> {
             let program = Program { outputs: group.to_vec(), ..self.program.clone() };
             program.without_dead_steps().symbols().cloned().collect()
         };
-        let (by_velocities, by_forces) = (read_by(&positions.1), read_by(&momenta.1));
+        let (by_velocities, by_forces) = (read_by(&positions.1), read_by(&[momenta.1, work.1].concat()));
         self.has(Quantity::CanonicalMomentum)
             && by_velocities.iter().all(|read| !self.symbols().contains(read) || momenta.0.contains(read))
             && by_forces.iter().all(|read| !momenta.0.contains(read))
+    }
+
+    /// Are they operations alone, one by one, of which `emit(taylor)` takes the series? What is called is not known so.
+    pub fn has_series(&self) -> bool {
+        self.program.calls.is_empty()
     }
 
     /// The components of some groups, and their rates.

@@ -232,6 +232,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     };
     // The multiplier of a constraint depends on the velocity.
     let second_order = model.constraint.is_none() && model.dynamics.reduced.is_second_order();
+    let series = model.dynamics.reduced.has_series();
     let description = quote! {
         #rt::Description {
             name: #name,
@@ -241,6 +242,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
             signature: #signature,
             constraint: #constraint,
             second_order: #second_order,
+            series: #series,
             domain: #domain,
             angles: #angles,
             left_out: &[#(#left_out),*],

@@ -30,8 +30,8 @@ impl ClosedForm {
     /// What a closed form leaves out: all integration, or that of motions with `p = 0`.
     pub fn left_out(only_at_rest: bool) -> LeftOut {
         match only_at_rest {
-            false => Scope::Model.without("integration: every motion has a closed form"),
-            true => Scope::Rest.without("integration of motions with p = 0: they have a closed form"),
+            false => Scope::ClosedForm.without("integration: every motion has a closed form"),
+            true => Scope::ClosedForm.without("integration of motions with p = 0: they have a closed form"),
         }
     }
 }

@@ -147,7 +147,8 @@ impl Custom {
         let phi_dot = shared.phi_dot(chart);
         let phi_dot = shared.matrix(Quantity::PlacementVelocity, &phi_dot);
         let x_dot = shared.x_dot(chart, centre);
-        let mut arguments = placed(shared.arena, chart);
+        let mut arguments = vec![Group::Scalar(Polynomial::atom(shared.arena.symbol(Quantity::Time)))];
+        arguments.extend(placed(chart));
         let zero = table(n, |_, _| Polynomial::zero());
         let told = if at_rest { (Vec::new(), zero.clone()) } else { (x_dot.clone(), phi_dot.clone()) };
         arguments.push(Group::Vector(or_zero(told.0, n)));
@@ -214,7 +215,7 @@ impl Custom {
         let kernel = match self.by {
             By::Field => Kernel {
                 callee: Callee::Custom(self.place, Asked::Slopes(class.number(), moves)),
-                arguments: placed(shared.arena, chart),
+                arguments: placed(chart),
                 results: vec![Group::Vector(along_x), slopes],
             },
             By::SelfGravity(_) => Kernel {
@@ -231,9 +232,7 @@ impl Custom {
         let Role::Potential { class, moves } = self.role else { return None };
         let energy = arena.symbol(Quantity::FieldPotential.at([self.place]));
         let (callee, arguments) = match self.by {
-            By::Field => {
-                (Callee::Custom(self.place, Asked::Energy(class.number(), moves)), placed(arena, chart))
-            }
+            By::Field => (Callee::Custom(self.place, Asked::Energy(class.number(), moves)), placed(chart)),
             By::SelfGravity(_) => (Callee::Ellipsoidal, vec![Group::Matrix(chart.placement())]),
         };
         let kernel = Kernel { callee, arguments, results: vec![Group::Scalar(energy)] };
@@ -329,14 +328,10 @@ fn isotropic(phi: &Square<Residue>, any: &dyn Fn(usize) -> Residue) -> Square<Re
 /// A call, forces on the affine momentum of the chart and on `p`, power of what is no potential.
 type Parts = (Kernel, Square<Polynomial>, Vec<Polynomial>, Option<Polynomial>);
 
-/// `t, x, phi`; `x = 0` where the chart has none.
-fn placed(arena: &mut Arena, chart: &Chart) -> Vec<Group<Polynomial>> {
+/// `x, phi`; `x = 0` where the chart has none.
+fn placed(chart: &Chart) -> Vec<Group<Polynomial>> {
     let x = chart.x.iter().map(|x| Polynomial::atom(*x)).collect();
-    vec![
-        Group::Scalar(Polynomial::atom(arena.symbol(Quantity::Time))),
-        Group::Vector(or_zero(x, chart.dim)),
-        Group::Matrix(chart.placement()),
-    ]
+    vec![Group::Vector(or_zero(x, chart.dim)), Group::Matrix(chart.placement())]
 }
 
 fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {

@@ -61,13 +61,12 @@ pub fn translational_force_in<
 /// The placement in the user's bases.
 fn place_in<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P: Potential<N>>(
     bases: &Bases<N, T>,
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> Place<N, T> {
     let x = bases.space_inverse * Vector::<N, T>::from(x);
     let phi = bases.space_inverse * matrix(phi) * bases.body;
-    place::<N, CLASS, POSITION, T, P>(t, x.into(), rows(&phi))
+    place::<N, CLASS, POSITION, T, P>(x.into(), rows(&phi))
 }
 
 /// `U`.
@@ -81,11 +80,10 @@ pub fn potential_energy_in<
 >(
     potential: &P,
     bases: &Bases<N, T>,
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> T {
-    potential.energy(&place_in::<N, CLASS, POSITION, T, P>(bases, t, x, phi))
+    potential.energy(&place_in::<N, CLASS, POSITION, T, P>(bases, x, phi))
 }
 
 /// `dU/dx` and `dU/dphi`.
@@ -99,11 +97,10 @@ pub fn potential_slopes_in<
 >(
     potential: &P,
     bases: &Bases<N, T>,
-    t: T,
     x: [T; N],
     phi: Rows<N, T>,
 ) -> ([T; N], Rows<N, T>) {
-    let Slopes { x, phi } = potential.slopes(&place_in::<N, CLASS, POSITION, T, P>(bases, t, x, phi));
+    let Slopes { x, phi } = potential.slopes(&place_in::<N, CLASS, POSITION, T, P>(bases, x, phi));
     let to_space = bases.space_inverse.transpose();
     (components(&(to_space * x)), rows(&(to_space * phi * bases.body.transpose())))
 }

@@ -90,7 +90,7 @@ pub enum Setting {
         index: usize,
     },
     /// The checkpoint is of a run with another model, other parameters, start, method, tolerance, interval, outputs or
-    /// events.
+    /// events, or is not as it was written.
     Checkpoint {
         /// Name of the model.
         #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
@@ -246,8 +246,8 @@ impl fmt::Display for Setting {
             }
             Setting::Checkpoint { model } => write!(
                 f,
-                "the checkpoint is not of this run of {model}: resume with the model, its parameters, the start, method, \
-                 tolerance, times, outputs and events of the run that was interrupted"
+                "the checkpoint is not of this run of {model}, or not as it was written: resume with the model, its \
+                 parameters, the start, method, tolerance, times, outputs and events of the run that was interrupted"
             ),
             Setting::Shard { k, of } => write!(f, "shard {k} of {of}: shards are counted from 0"),
             Setting::Step { given, t0, t_end } => write!(

@@ -48,6 +48,7 @@ impl Model<2> for IncompressibleDisc {
             full: groups,
             reduced: groups,
             second_order: false,
+            series: true,
             ..<Planar>::DESCRIPTION
         }
     };

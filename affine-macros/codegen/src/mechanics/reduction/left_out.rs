@@ -18,8 +18,8 @@ pub enum Scope {
     Reduction,
     /// Those by methods that integrate what the reduced state carries along.
     Carried,
-    /// Those with `p = 0`.
-    Rest,
+    /// Those in closed form.
+    ClosedForm,
 }
 
 impl Scope {

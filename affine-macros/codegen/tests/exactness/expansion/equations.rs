@@ -97,9 +97,8 @@ fn called(
             Some(results)
         }
         Callee::Custom(place, Asked::Slopes(class, moves)) => {
-            let (t_and_x, phi) = arguments.split_at(1 + n);
-            let place_and_time = if moves { t_and_x } else { &t_and_x[..1] };
-            Some(slopes(place, class, place_and_time, &square(phi)))
+            let (x, phi) = arguments.split_at(n);
+            Some(slopes(place, class, if moves { x } else { &[] }, &square(phi)))
         }
         // Any isotropic function.
         Callee::EllipsoidalSlopes => Some(slopes(0, 0, &[], &square(arguments)).split_off(n)),
