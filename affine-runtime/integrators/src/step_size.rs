@@ -118,11 +118,11 @@ pub(crate) fn shortest(t: f64, t_end: f64) -> f64 {
     16.0 * f64::EPSILON * if size > f64::EPSILON * span { size } else { f64::EPSILON * span }
 }
 
-/// The length of a first step from `t`: within the span, and one that times can tell from none. What is zero but for rounding, as
-/// a change of the state may be, seems to move at once.
+/// The length of a first step from `t`: within the span, and one that times near `t` can tell from none, however far the end. What
+/// is zero but for rounding, as a change of the state may be, seems to move at once.
 #[inline(always)]
 pub(crate) fn begun(length: f64, t: f64, span: f64) -> f64 {
-    let least = 2.0 * shortest(t, t + span);
+    let least = 2.0 * shortest(t, t);
     let length = if length < least { least } else { length };
     if length < span.abs() { length } else { span.abs() }
 }
