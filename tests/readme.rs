@@ -173,6 +173,7 @@ fn folder(package: Option<&str>) -> PathBuf {
         Some("affine-integrators") => "affine-runtime/integrators",
         Some("affine-codegen") => "affine-macros/codegen",
         Some("affine-allocations") => "tests/allocations",
+        Some("affine-inlined") => "tests/inlined",
         Some("affine-linked") => "tests/linked",
         Some("affine-together") => "tests/together",
         Some("affine-oracle") => "tests/oracle",
