@@ -1,8 +1,8 @@
 //! What is compiled for wide vectors calls nothing that is compiled for others: a right-hand side, stage sums or a norm that the
 //! compiler did not inline would be there in narrow vectors, and several times as slow.
 //!
-//! In release builds alone: `cargo test --release -p affine-inlined`.
-#![cfg(target_os = "linux")]
+//! In release builds for Linux on x86-64, whose calls are told here: `cargo test --release -p affine-inlined`.
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::BTreeSet;
