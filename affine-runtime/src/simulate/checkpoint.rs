@@ -21,19 +21,19 @@ pub struct Checkpoint {
     /// The arithmetic of the machine.
     pub(super) fused: FusedArithmetic,
     pub(super) place: Place,
-    /// That of the place.
+    /// The digest of the place, as it was when the checkpoint was made.
     digest: u64,
 }
 
 impl Checkpoint {
-    /// Of a run here.
+    /// A checkpoint of a run on this machine.
     pub(super) fn new(run: String, place: Place) -> Self {
         let digest = place.digest();
         Self { run, fused: FusedArithmetic::here(), place, digest }
     }
 
-    /// Is it of the run that is known by this, and as it was written? Of numbers that were not written an integrator makes
-    /// anything.
+    /// Is it of the run that is known by this, and as it was written? An integrator that goes on from other numbers leads
+    /// anywhere, and does not tell.
     pub(super) fn is_of(&self, run: &str) -> bool {
         self.run == run && self.place.digest() == self.digest
     }

@@ -6,7 +6,7 @@ use affine_runtime::state::{PhasePoint, Pinned};
 /// Draws a run of a planar body.
 ///
 /// # Errors
-/// Those of files.
+/// A file that cannot be written.
 pub fn draw(run: &Trajectory<2, PhasePoint<2, Body, Pinned>>) -> affine_runtime::Result<()> {
     run.save_svg("disc.svg")?;
     println!("{}", run.to_svg());

@@ -105,8 +105,8 @@ impl<const N: usize> Chart<N> {
         Matrix::<N>::from_row_slice(&state.as_ref()[self.range()])
     }
 
-    /// `xi` of a state of coordinates. What leads out of the Lie algebra is rounding, and what an iteration for all of the entries
-    /// left over.
+    /// `xi` of a state of coordinates. What leads out of the Lie algebra is rounding, and the residual of implicit steps, which
+    /// iterate on all entries.
     fn xi<S: StateVector<f64>>(&self, z: &S) -> Matrix<N> {
         self.in_algebra(&self.read(z))
     }
