@@ -1,7 +1,8 @@
 //! Soft bodies that fall: 200 affine bodies in a frame loop, 60 frames a second; in free fall, and on a ground that
 //! they bounce off, a force at their corners. Both by splitting of order 2; on the ground by steps that follow their error, too.
 //!
-//! Each body is a `Flow` with a model of its own, stepped from frame to frame as a game or a controller would. What is measured
+//! Each body is a `Flow` with a model of its own, stepped from frame to frame as a game or a controller would; then all of them are
+//! `Flows`, eight at once in the vectors of the processor, and have to be where they are alone, to the bit. What is measured
 //! is the time of one step, or frame, of one body with everything that a frame does; what is checked is where the centres of mass are,
 //! which gravity alone moves, and the energies, with that of the ground.
 //!
@@ -9,6 +10,7 @@
 
 use std::time::Instant;
 
+use affine_runtime::capability::{InLanes, Splitting};
 use affine_runtime::force::{AtPoint, PointForce, Translation};
 use affine_runtime::frames::Space;
 use affine_runtime::model::Owned;
@@ -21,7 +23,7 @@ use affine_runtime::scalar::Scalar;
     dim = 3,
     kinetic(dalembert = 1/12, space_translation = 1),
     potential = orthogonality(1e4) + g*x[3],
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 #[derive(Clone, Copy)]
 pub struct Cube {
@@ -35,7 +37,7 @@ pub struct Cube {
     kinetic(dalembert = 1/12, space_translation = 1),
     potential = orthogonality(1e4) + g*x[3],
     forces = custom(press, translation, position) + custom(turn, spatial, position),
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 #[derive(Clone, Copy)]
 pub struct Bouncing {
@@ -101,6 +103,8 @@ fn in_free_fall() -> affine_runtime::Result<()> {
     let method = Method::Splitting { order: 2, step };
     let (bodies, starts, least) = fallen("in free fall", &cube, (method, SECONDS), start)?;
     println!("least: {:.0} ns a body and step", least / f64::from(STEPS));
+    let ends: Vec<_> = bodies.iter().map(Flow::point).collect();
+    together("in free fall", &cube, [&starts, &ends], SECONDS)?;
     let (mut off, mut swing) = (0.0_f64, 0.0_f64);
     for (body, start) in bodies.iter().zip(&starts) {
         let (t, point) = (body.t(), body.point());
@@ -129,6 +133,8 @@ fn on_the_ground() -> affine_runtime::Result<()> {
     let method = Method::Splitting { order: 2, step: 1.0 / f64::from(FRAMES * STEPS) };
     let (bodies, starts, least) = fallen("on the ground", &cube, (method, BOUNCING), start)?;
     println!("least: {:.0} ns a body and step", least / f64::from(STEPS));
+    let ends: Vec<_> = bodies.iter().map(Flow::point).collect();
+    together("on the ground", &cube, [&starts, &ends], BOUNCING)?;
     let (mut deepest, mut highest, mut swing) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     for (body, start) in bodies.iter().zip(&starts) {
         let (t, point) = (body.t(), body.point());
@@ -206,6 +212,33 @@ fn fallen<M: Model<3> + Clone + 'static>(
         println!("{name}, t = {second:>2}: {cost:.0} ns a body and frame");
     }
     Ok((bodies, starts, least))
+}
+
+/// The same bodies eight at once: where they are alone, in less time.
+fn together<M: InLanes<3> + Splitting<3> + Clone + Send + Sync>(
+    name: &str,
+    model: &M,
+    [starts, ends]: [&[M::Point<f64>]; 2],
+    seconds: u32,
+) -> affine_runtime::Result<()>
+where
+    M::Point<f64>: Send,
+{
+    let bodies = starts.iter().map(|start| (Owned(model.clone()), *start));
+    let step = 1.0 / f64::from(FRAMES * STEPS);
+    let mut flows = Flows::by_splitting((2, step), 0.0, bodies)?;
+    let mut least = f64::INFINITY;
+    for second in 1..=seconds {
+        let began = Instant::now();
+        for frame in (second - 1) * FRAMES + 1..=second * FRAMES {
+            flows.advance_to(f64::from(frame) / f64::from(FRAMES))?;
+        }
+        let steps = BODIES as f64 * f64::from(FRAMES * STEPS);
+        least = least.min(began.elapsed().as_secs_f64() * 1e9 / steps);
+    }
+    println!("{name}, eight at once: least {least:.1} ns a body and step");
+    assert!(flows.points().eq(ends.iter().copied()), "each body is where it is alone");
+    Ok(())
 }
 
 /// Centre and velocity of a body that spins, each another way.

@@ -130,7 +130,7 @@ pub use affine_core::{
 pub(crate) use affine_integrators as integrate;
 /// Numbers that are several, side by side: bodies of an ensemble in the vectors of a processor.
 pub mod lanes {
-    pub use affine_integrators::lanes::{F64x8, F64x16, FastF64x8, Lanes};
+    pub use affine_integrators::lanes::{F64x8, FastF64x8, Lanes};
 }
 
 /// What a model has beyond the default, by `emit(...)`, and how code that serves every model finds it.
@@ -144,6 +144,8 @@ mod inner {
     pub(crate) use affine_core::__private::numerics::*;
     #[cfg(feature = "std")]
     pub(crate) use affine_core::__private::{Unconstrained, gathered};
+    #[cfg(feature = "std")]
+    pub(crate) use affine_core::system::Sum;
     pub(crate) use affine_integrators::__private::accumulate;
     pub(crate) use affine_integrators::__private::runs::*;
 }
@@ -160,7 +162,7 @@ pub use nalgebra;
 pub use error::{Error, Result};
 pub use model::Model;
 #[cfg(feature = "std")]
-pub use simulate::{Ensemble, Flow, Method, Simulation, Trajectory};
+pub use simulate::{Ensemble, Flow, Flows, Method, Simulation, Trajectory};
 
 #[cfg(feature = "macros")]
 pub use affine_macros::affine_model;
@@ -174,7 +176,7 @@ pub mod prelude {
     pub use crate::state::Phase;
 
     #[cfg(feature = "std")]
-    pub use crate::simulate::{Ensemble, Event, Flow, Method, Simulation, Trajectory};
+    pub use crate::simulate::{Ensemble, Event, Flow, Flows, Method, Simulation, Trajectory};
 
     #[cfg(feature = "macros")]
     pub use crate::affine_model;
@@ -193,6 +195,7 @@ macro_rules! pages {
         /// [`poisson_bracket`]: crate::bracket::poisson_bracket
         /// [`Event`]: crate::simulate::Event
         /// [`Flow`]: crate::simulate::Flow
+        /// [`Flows`]: crate::simulate::Flows
         /// [`Member`]: crate::simulate::Member
         /// [`Method::Rattle`]: crate::simulate::Method::Rattle
         /// [`Generator`]: crate::analysis::Generator

@@ -25,6 +25,7 @@ mod event;
 mod failed;
 mod fingerprint;
 mod flow;
+mod flows;
 mod follow;
 #[cfg(feature = "csv")]
 mod format;
@@ -76,6 +77,7 @@ pub use conservation::{Conservation, Drift};
 pub use ensemble::{Ends, Ensemble, Member};
 pub use event::{Event, Occurrence};
 pub use flow::Flow;
+pub use flows::Flows;
 #[cfg(feature = "csv")]
 pub use format::Format;
 pub use method::Method;

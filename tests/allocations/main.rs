@@ -1,4 +1,4 @@
-//! A flow allocates where it is made, and never again: frames, new points, new fields, and what goes wrong.
+//! A flow, or many, allocates where it is made, and never again: frames, new points, new fields, and what goes wrong.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -40,7 +40,7 @@ fn allocated<R>(work: impl FnOnce() -> R) -> (usize, R) {
     dim = 3,
     kinetic(dalembert = 0.25, space_translation = 1),
     potential = orthogonality(100) + g*x[3],
-    emit(splitting, nystrom, taylor),
+    emit(splitting, lanes, nystrom, taylor),
 )]
 #[derive(Clone, Copy, Debug)]
 struct Block {
@@ -89,5 +89,30 @@ fn nothing_is_allocated_after_the_construction() -> affine_runtime::Result<()> {
         done?;
         assert_eq!(frames, 0, "{method:?}");
     }
+    Ok(())
+}
+
+#[test]
+fn nothing_is_allocated_for_many_bodies_after_the_construction() -> affine_runtime::Result<()> {
+    let block = |g: f64| Block { g }.prepare();
+    let spinning = Matrix::<3>::new(0.2, -1.0, 0.3, 1.1, 0.0, -0.5, -0.2, 0.4, 0.1);
+    let start =
+        block(9.81)?.at_velocity(Vector::zeros(), Matrix::identity(), Vector::<3>::zeros(), spinning)?;
+    let (falling, other) = (Owned(block(9.81)?), Owned(block(3.0)?));
+    let (made, flows) = allocated(|| Flows::by_splitting((4, 0.005), 0.0, [(falling, start); 19]));
+    assert!(made > 0, "the allocator counts");
+    let mut flows = flows?;
+    let (frames, done) = allocated(|| -> affine_runtime::Result<()> {
+        for frame in 1..=100 {
+            flows.advance_to(f64::from(frame) / 60.0)?;
+            assert!(flows.points().count() == 19 && flows.stopped().count() == 0);
+            flows.set_model(frame as usize % 19, other)?;
+            flows.set_point(frame as usize % 7, start)?;
+        }
+        let _ = flows.advance(f64::NAN);
+        Ok(())
+    });
+    done?;
+    assert_eq!(frames, 0);
     Ok(())
 }

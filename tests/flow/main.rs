@@ -5,6 +5,7 @@
 mod dense;
 mod models;
 mod refusals;
+mod together;
 
 use std::rc::Rc;
 use std::sync::Arc;

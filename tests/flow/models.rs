@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::force::{AtPoint, Force, Motion, PointForce, Translation};
+use affine_runtime::frames::Space;
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 
@@ -12,7 +13,7 @@ use affine_runtime::scalar::Scalar;
     dim = 3,
     kinetic(dalembert = 0.25, space_translation = 1),
     potential = orthogonality(stiffness) + g*x[3],
-    emit(splitting, nystrom, taylor),
+    emit(splitting, lanes, nystrom, taylor),
 )]
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
@@ -52,10 +53,62 @@ pub(crate) struct Free;
 pub(crate) struct Skewed;
 
 /// Nothing keeps it from turning inside out.
-#[affine_model(dim = 2, kinetic(dalembert = 1), potential = pull*(phi[1,1] + phi[2,2]), emit(splitting))]
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1),
+    potential = pull*(phi[1,1] + phi[2,2]),
+    emit(splitting, lanes)
+)]
 #[derive(Clone, Copy)]
 pub(crate) struct Dust {
     pub(crate) pull: f64,
+}
+
+/// It has no energy beyond a wall, and its steps are looked after one by one.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = sqrt(1 - x[1]) + orthogonality(10),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy)]
+pub(crate) struct Walled;
+
+/// A body in bases that are not orthonormal, with stretches of its own.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.5, body_inertia = 1),
+    metrics(space = [[2, 0.5], [0.5, 1.5]], body = [[1, -0.4], [-0.4, 3]]),
+    potential = c*(tr(G)/2 - ln(det)),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy)]
+pub(crate) struct Slanted {
+    pub(crate) c: f64,
+}
+
+/// Pulled back to the axis, at every point of its own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spring(pub(crate) f64);
+
+impl PointForce<2> for Spring {
+    fn force<T: Scalar>(&self, _: T, x: &Vector<2, T>, _: &Vector<2, T>) -> Vector<2, T> {
+        Vector::<2, T>::new(T::zero(), T::constant(-self.0, 0.0) * x[1])
+    }
+}
+
+/// Held at two points.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = orthogonality(10),
+    forces = custom(press, translation, position) + custom(turn, spatial, position),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Held {
+    pub(crate) press: AtPoint<2, Spring, Translation, 2>,
+    pub(crate) turn: AtPoint<2, Spring, Space, 2>,
 }
 
 /// A constant force of 2 that knows how often it was asked for.

@@ -2,7 +2,7 @@
 
 use affine_oracle::{Random, rounded};
 use affine_runtime::capability::InLanes;
-use affine_runtime::lanes::{F64x8, F64x16, Lanes};
+use affine_runtime::lanes::{F64x8, Lanes};
 use affine_runtime::parametric::Parametric;
 use affine_runtime::prelude::*;
 
@@ -44,7 +44,6 @@ fn equations_are_those_of_each<const N: usize, F: Drawn<N>, T: Lanes>() {
 #[test]
 fn coefficients_in_lanes_give_the_equations_of_each_model() {
     equations_are_those_of_each::<3, Missile, F64x8>();
-    equations_are_those_of_each::<3, Missile, F64x16>();
     equations_are_those_of_each::<3, Ellipsoid, F64x8>();
     equations_are_those_of_each::<2, Anisotropic, F64x8>();
     equations_are_those_of_each::<2, Oblique<Wind>, F64x8>();

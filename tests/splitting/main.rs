@@ -8,3 +8,4 @@ mod fields;
 mod models;
 mod motions;
 mod pieces;
+mod together;

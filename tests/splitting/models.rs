@@ -6,7 +6,7 @@ use affine_runtime::prelude::*;
 #[affine_model(
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
-    emit(splitting)
+    emit(splitting, lanes)
 )]
 pub(crate) struct Missile;
 
@@ -41,7 +41,7 @@ pub(crate) struct PlanarMirrored;
     dim = 3,
     kinetic(dalembert = diag(1, 1.5, 2)),
     potential = hyperbolic_dilatation(kappa) + neo_hookean(0.5),
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Elastic {
     pub(crate) kappa: f64,
@@ -51,7 +51,7 @@ pub(crate) struct Elastic {
     dim = 2,
     kinetic(dalembert = 1, space_translation = 2),
     potential = tr(G)/2 - ln(det) + x[1]^2/2 + x[2]^4/4 + x[1]*phi[1,2],
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Anchored;
 
@@ -60,7 +60,7 @@ pub(crate) struct Anchored;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1),
     potential = tr(G)/2 - ln(det) + G[1,1]^2/4 + G[1,2]/5,
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Fibred;
 
@@ -77,7 +77,7 @@ pub(crate) struct Pressed;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = tr(G)/2 - ln(det) + norm(x)^2/2,
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Attracted;
 
@@ -85,7 +85,7 @@ pub(crate) struct Attracted;
     dim = 2,
     kinetic(casimir2 = 0.2, body_inertia = 1),
     potential = (1 + sin(2*t)/2)*(tr(G)/2 - ln(det)),
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Driven;
 
@@ -102,7 +102,7 @@ pub(crate) struct Cubic;
     dim = 3,
     kinetic(casimir2 = 0.2, body_inertia = 1),
     potential = (q1^2 + q2^2 + q3^2)/2 + q^4 + pairs(tanh(d)^2),
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Stretched;
 
@@ -133,7 +133,7 @@ pub(crate) struct Pulled {
     dim = 2,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, space_inertia = 1, space_translation = 2),
     potential = 10/2*q^2 + neo_hookean(0.5) + 0.1*x[1]^2 + 0.2*x[2]*phi[1,2]*cos(t),
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Tied;
 
@@ -142,7 +142,7 @@ pub(crate) struct Tied;
     dim = 3,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 1),
     potential = 5*sinh(q)^2 + gas(0.3) - q/5 + (q1^2 + q2^2 + q3^2)/2 + 0.4*x[3],
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Falling;
 
@@ -163,7 +163,7 @@ pub(crate) struct Towed {
     dim = 2,
     kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1, body_translation = 2),
     potential = kappa/2*q^2 + neo_hookean(2) + x[1]^2,
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 pub(crate) struct Moored {
     pub(crate) kappa: f64,
@@ -193,18 +193,13 @@ pub(crate) fn p3() -> Vector<3> {
     Vector::<3>::new(0.3, -0.2, 0.5)
 }
 
-/// Calls a macro with each model, its dimension and its start.
-macro_rules! each_model {
+/// Calls a macro with models of every kind of piece that go in lanes, their dimensions and their starts.
+macro_rules! each_in_lanes {
     ($visit:ident) => {{
         use crate::models::*;
         let (x2, p2) = (Vector::<2>::new(0.4, -0.1), Vector::<2>::new(0.3, -0.2));
         let start = Missile.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
         $visit!("missile", 3, &Missile, start);
-        let model = VibratingMissile { m: 2.0, kappa: 10.0 }.prepare().unwrap();
-        let start = model.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
-        $visit!("vibrating missile", 3, &model, start);
-        let start = Vibrating.at_momentum(phi3(), Comoving(spin3())).unwrap();
-        $visit!("vibrating", 3, &Vibrating, start);
         let model = Elastic { kappa: 10.0 }.prepare().unwrap();
         let start = model.at_momentum(phi3(), Comoving(spin3())).unwrap();
         $visit!("elastic", 3, &model, start);
@@ -212,34 +207,49 @@ macro_rules! each_model {
         $visit!("fibred", 3, &Fibred, start);
         let start = Attracted.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
         $visit!("attracted", 3, &Attracted, start);
-        let start = Cubic.at_momentum(phi3(), Comoving(spin3())).unwrap();
-        $visit!("cubic", 3, &Cubic, start);
         let start = Stretched.at_momentum(phi3(), Comoving(spin3())).unwrap();
         $visit!("stretched", 3, &Stretched, start);
-        let start = PlanarMirrored.at_momentum(phi2(), Spatial(spin2())).unwrap();
-        $visit!("planar mirrored", 2, &PlanarMirrored, start);
         let start = Anchored.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
         $visit!("anchored", 2, &Anchored, start);
-        let start = Pressed.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
-        $visit!("pressed", 2, &Pressed, start);
         let start = Driven.at_momentum(phi2(), Comoving(spin2())).unwrap();
         $visit!("driven", 2, &Driven, start);
+        let start = Tied.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
+        $visit!("tied", 2, &Tied, start);
+        let start = Falling.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
+        $visit!("falling", 3, &Falling, start);
+        let model = Moored { kappa: 10.0 }.prepare().unwrap();
+        let start = model.at_momentum(x2, phi2(), p2, Comoving(spin2())).unwrap();
+        $visit!("moored", 2, &model, start);
+    }};
+}
+pub(crate) use each_in_lanes;
+
+/// Calls a macro with each model, its dimension and its start.
+macro_rules! each_model {
+    ($visit:ident) => {{
+        use crate::models::*;
+        let (x2, p2) = (Vector::<2>::new(0.4, -0.1), Vector::<2>::new(0.3, -0.2));
+        let model = VibratingMissile { m: 2.0, kappa: 10.0 }.prepare().unwrap();
+        let start = model.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
+        $visit!("vibrating missile", 3, &model, start);
+        let start = Vibrating.at_momentum(phi3(), Comoving(spin3())).unwrap();
+        $visit!("vibrating", 3, &Vibrating, start);
+        let start = Cubic.at_momentum(phi3(), Comoving(spin3())).unwrap();
+        $visit!("cubic", 3, &Cubic, start);
+        let start = PlanarMirrored.at_momentum(phi2(), Spatial(spin2())).unwrap();
+        $visit!("planar mirrored", 2, &PlanarMirrored, start);
+        let start = Pressed.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
+        $visit!("pressed", 2, &Pressed, start);
         let model = Inflated { kappa: 10.0 }.prepare().unwrap();
         let start = model.at_momentum(phi3(), Comoving(spin3())).unwrap();
         $visit!("inflated", 3, &model, start);
         let model = Pulled { kappa: 10.0 }.prepare().unwrap();
         let start = model.at_momentum(phi3(), Spatial(spin3())).unwrap();
         $visit!("pulled", 3, &model, start);
-        let start = Tied.at_momentum(x2, phi2(), p2, Spatial(spin2())).unwrap();
-        $visit!("tied", 2, &Tied, start);
-        let start = Falling.at_momentum(x3(), phi3(), p3(), Comoving(spin3())).unwrap();
-        $visit!("falling", 3, &Falling, start);
         let model = Towed { kappa: 10.0, m: 2.0 }.prepare().unwrap();
         let start = model.at_momentum(x3(), phi3(), p3(), Spatial(spin3())).unwrap();
         $visit!("towed", 3, &model, start);
-        let model = Moored { kappa: 10.0 }.prepare().unwrap();
-        let start = model.at_momentum(x2, phi2(), p2, Comoving(spin2())).unwrap();
-        $visit!("moored", 2, &model, start);
+        crate::models::each_in_lanes!($visit);
         crate::anisotropic::each_anisotropic!($visit);
         crate::confined::each_confined!($visit);
         crate::fields::each_with_fields!($visit);

@@ -8,7 +8,9 @@ use crate::divisor::Divisor;
 use crate::lanes::{Lanes, in_lane};
 use crate::model::{Group, Handle, Model};
 use crate::scalar::{Real, Scalar};
-use crate::system::{Packing, Pieces, SecondOrder, Series, StateVector, Sum, Unconstrained};
+use crate::system::{
+    Packing, Pieces, SecondOrder, Series, StateVector, Sum, Unconstrained, of_lane, set_lane,
+};
 use crate::vectors::{Portable, Vectors};
 
 /// `emit(taylor)`: Taylor coefficients of the reduced motion to any order, `y(t + h) = sum_k y_k h^k`.
@@ -136,15 +138,9 @@ pub trait InLanes<const N: usize>: Model<N> {
         // Their own, so that nothing that is read can be what is written: few lanes are not worth a check of that.
         let mut of_lanes = Self::Reduced::<T>::zeros();
         for lane in 0..T::LANES {
-            let mut state = Self::Reduced::<T::Lane>::zeros();
-            for (component, lanes) in state.as_mut().iter_mut().zip(y.as_ref()) {
-                *component = in_lane(lanes, lane);
-            }
             let (t, constants) = (in_lane(&t, lane), Self::constants_of_lane(constants, lane));
-            let of_lane = model(lane).reduced_equations(t, &constants, &state);
-            for (lanes, component) in of_lanes.as_mut().iter_mut().zip(of_lane.as_ref()) {
-                lanes.set_lane(lane, component.to_f64());
-            }
+            let rates_of_lane = model(lane).reduced_equations(t, &constants, &of_lane(y, lane));
+            set_lane(&mut of_lanes, lane, &rates_of_lane);
         }
         *rates = of_lanes;
     }

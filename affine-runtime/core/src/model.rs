@@ -34,7 +34,7 @@ pub trait Model<const N: usize> {
     /// closed form is taken out; see [`Description::reduced`] for the layout.
     type Reduced<T: Scalar>: StateVector<T>;
     /// What one trajectory conserves.
-    type Constants<T: Scalar>: Copy + Debug;
+    type Constants<T: Scalar>: Copy + Debug + Send + Sync;
     /// Phase point as a plain array in the model's own frames; see [`Description::full`] for the layout.
     type Full<T: Scalar>: StateVector<T>;
 

@@ -109,6 +109,6 @@ pub mod numerics {
     pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
     pub use crate::reduction::jacobi;
     pub use crate::scalar::inverse_cbrt::of_regular;
-    pub use crate::system::{NotEmitted, is_emitted};
+    pub use crate::system::{NotEmitted, is_emitted, of_lane, set_lane};
     pub use crate::vectors::{IS_FUSED, Portable, Vectors};
 }

@@ -2,8 +2,9 @@
 
 use core::fmt::Debug;
 
+use crate::lanes::{Lanes, in_lane};
 use crate::quantity::Group;
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 use crate::vectors::Vectors;
 
 /// A fixed-size vector of numbers that integrators step.
@@ -18,6 +19,36 @@ impl<T: Scalar, const D: usize> StateVector<T> for [T; D] {
     const LEN: usize = D;
     fn zeros() -> Self {
         [T::zero(); D]
+    }
+}
+
+/// A state from what stands in a lane of its components.
+#[inline(always)]
+pub fn of_lane<T: Lanes, S: StateVector<T::Lane>>(lanes: &impl StateVector<T>, lane: usize) -> S {
+    let mut state = S::zeros();
+    let (components, lanes) = (state.as_mut(), lanes.as_ref());
+    // Counted by hand: compilers write out such a loop over any state, and one that iterates not always. Lanes become vectors only
+    // where no loop is left within that over lanes.
+    let mut place = 0;
+    while place < S::LEN {
+        if let (Some(component), Some(lanes)) = (components.get_mut(place), lanes.get(place)) {
+            *component = in_lane(lanes, lane);
+        }
+        place += 1;
+    }
+    state
+}
+
+/// Puts a state into a lane.
+#[inline(always)]
+pub fn set_lane<T: Lanes, S: StateVector<T::Lane>>(lanes: &mut impl StateVector<T>, lane: usize, state: &S) {
+    let (components, lanes) = (state.as_ref(), lanes.as_mut());
+    let mut place = 0;
+    while place < S::LEN {
+        if let (Some(component), Some(lanes)) = (components.get(place), lanes.get_mut(place)) {
+            lanes.set_lane(lane, component.to_f64());
+        }
+        place += 1;
     }
 }
 

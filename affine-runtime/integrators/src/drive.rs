@@ -261,7 +261,10 @@ impl<M: EqualStepMethod> Equal<M> {
     /// [`Failure::NoSolution`] or [`Failure::NotFinite`], now and ever after; the state stays that of the last step.
     pub fn advance(&mut self) -> Result<(), Failure> {
         let Self { method, steps } = self;
-        steps.take(|from, h, last| method.step(from, h, last))
+        steps.take(|(t, from), to, h, last| {
+            *to = *from;
+            method.step((t, to), h, last)
+        })
     }
 
     /// The state at a time within the last step, by a shorter step of the same method from its beginning, which leaves

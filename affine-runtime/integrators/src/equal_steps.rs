@@ -92,15 +92,15 @@ impl<P: Copy> EqualSteps<P> {
         }
     }
 
-    /// Takes a step; does nothing at `t_end`. What moves the point is given the time, the point, which it changes, the length of
-    /// the step, and that of the step before if there is one. Where it fails the point reached stays, now and ever after.
+    /// Takes a step; does nothing at `t_end`. What moves the point is given the time, the point, room for the next one, the length
+    /// of the step, and that of the step before if there is one. Where it fails the point reached stays, now and ever after.
     ///
     /// # Errors
     /// Those of the step.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
-        step: impl FnOnce((f64, &mut P), f64, Option<f64>) -> Result<(), Failure>,
+        step: impl FnOnce((f64, &P), &mut P, f64, Option<f64>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
@@ -110,13 +110,12 @@ impl<P: Copy> EqualSteps<P> {
         }
         let (t, last) = (self.t(), (self.taken() > 0).then_some(self.last));
         let [first, second, third] = &mut self.points;
-        let (end, moving) = match self.end {
+        let (end, next) = match self.end {
             Place::First => (first, second),
             Place::Second => (second, third),
             Place::Third => (third, first),
         };
-        *moving = *end;
-        if let Err(failure) = step((t, moving), self.times.h, last) {
+        if let Err(failure) = step((t, end), next, self.times.h, last) {
             self.failure = Some(failure);
             return Err(failure);
         }
@@ -143,12 +142,17 @@ impl<P: Copy> EqualSteps<P> {
     /// Where the last step began, for a shorter one to the time `t`: point, time and length; `None` where the point
     /// reached is the one at `t`, or the only one.
     pub(super) fn again_to(&self, t: f64) -> Option<(f64, P, f64)> {
-        if self.taken == 0 || t == self.t() {
+        if t == self.t() {
             return None;
         }
-        let begin = self.times.at(self.taken - 1);
+        self.begin().map(|(begin, point)| (begin, *point, t - begin))
+    }
+
+    /// Time and point where the last step began; `None` where none was taken to this end.
+    pub(super) fn begin(&self) -> Option<(f64, &P)> {
+        let before = self.taken.checked_sub(1)?;
         // The place before is the one after the next.
-        Some((begin, *self.point(self.end.next().next()), t - begin))
+        Some((self.times.at(before), self.point(self.end.next().next())))
     }
 
     /// Time reached.
@@ -159,6 +163,17 @@ impl<P: Copy> EqualSteps<P> {
     /// Point reached.
     pub(super) fn end(&self) -> &P {
         self.point(self.end)
+    }
+
+    /// The same, to be changed between steps.
+    #[cfg(feature = "std")]
+    pub(super) fn end_mut(&mut self) -> &mut P {
+        let [first, second, third] = &mut self.points;
+        match self.end {
+            Place::First => first,
+            Place::Second => second,
+            Place::Third => third,
+        }
     }
 
     fn point(&self, place: Place) -> &P {
@@ -234,17 +249,17 @@ mod tests {
             let last = steps.again_to(0.25);
             let before = if taken == 0 { None } else { Some((f64::from(taken - 1), 9.0 + f64::from(taken))) };
             assert_eq!(last.map(|(t, point, _)| (t, point)), before);
-            let step = |(t, point): (f64, &mut f64), h: f64, last: Option<f64>| {
+            let step = |(t, point): (f64, &f64), next: &mut f64, h: f64, last: Option<f64>| {
                 assert_eq!((t, *point, h), (f64::from(taken), 10.0 + f64::from(taken), 1.0));
                 assert_eq!(last, (taken > 0).then_some(1.0));
-                *point += h;
+                *next = *point + h;
                 if taken < 3 { Ok(()) } else { Err(Failure::NotFinite) }
             };
             assert_eq!(steps.take(step).is_ok(), taken < 3);
         }
         assert_eq!((steps.t(), *steps.end(), steps.taken()), (3.0, 13.0, 3));
         assert_eq!(steps.again_to(2.5), Some((2.0, 12.0, 0.5)));
-        assert_eq!(steps.take(|_, _, _| Ok(())), Err(Failure::NotFinite));
+        assert_eq!(steps.take(|_, _, _, _| Ok(())), Err(Failure::NotFinite));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Several doubles side by side as one number: the bodies of an ensemble, each in a lane.
 //!
-//! Strict, [`F64x8`] and [`F64x16`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
+//! Strict, [`F64x8`]: every operation of a lane gives the bits that [`f64`] gives on the same target.
 //! Arithmetic and square roots are rounded correctly in either; a multiply-add is fused in either or in neither;
 //! elementary functions are computed lane by lane by those of `f64`.
 //!
@@ -41,8 +41,6 @@ pub struct Several<S, const LANES: usize>([f64; LANES], PhantomData<S>);
 /// Eight doubles, the lanes that an `Ensemble` takes: one vector of AVX-512, two of AVX2. Of sixteen lanes the stages of a
 /// step hardly fit into the nearest cache, and with AVX2 a right-hand side of the size of P2 no longer into the registers.
 pub type F64x8 = Several<f64, 8>;
-/// Sixteen doubles.
-pub type F64x16 = Several<f64, 16>;
 /// Eight doubles with fast elementary functions.
 pub type FastF64x8 = Several<Fast, 8>;
 

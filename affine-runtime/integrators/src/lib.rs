@@ -67,6 +67,8 @@ pub mod __private {
         pub use crate::sound;
         pub use crate::splitting::adaptive::{EVALUATIONS as EVALUATIONS_OF_FASTEST, ORDER, fastest};
         pub use crate::splitting::coefficients::Sweeps;
+        #[cfg(feature = "std")]
+        pub use crate::splitting::in_lanes::{PiecesInLanes, SplittingInLanes};
         pub use crate::tape::Tape;
         pub use crate::widest::vectorized;
         pub use affine_core::__private::numerics::IS_FUSED;

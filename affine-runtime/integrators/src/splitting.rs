@@ -6,6 +6,8 @@ pub(crate) mod coefficients;
 pub(crate) mod dilated;
 pub(crate) mod fading;
 pub(crate) mod growth;
+#[cfg(feature = "std")]
+pub(crate) mod in_lanes;
 
 pub use adaptive::AdaptiveSplitting;
 pub use affine_core::system::Pieces;
@@ -57,7 +59,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Equal<SplittingSteps<S, C, P>> {
         t_end: f64,
         step: f64,
     ) -> Option<Result<Self, Failure>> {
-        let sweeps = of_order::<S, C, P>(order)?;
+        let sweeps = of_order(order, (P::NYSTROM, P::DILATES))?;
         let method = SplittingSteps { pieces, constants, sweeps, evaluations: 0, state: PhantomData };
         Some(Times::new(t0, t_end, step).and_then(|times| match is_finite(&y0) {
             true => Ok(Self { method, steps: EqualSteps::at(times, Sum::of(y0)) }),
@@ -94,13 +96,9 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> EqualStepMethod for SplittingSteps
     }
 }
 
-/// The composition of an order for pieces.
-fn of_order<S, C, P: Pieces<S, C>>(order: usize) -> Option<Sweeps> {
-    if P::NYSTROM && P::DILATES {
-        Sweeps::near_integrable(order)
-    } else {
-        Sweeps::of_order(order, P::NYSTROM)
-    }
+/// The composition of an order for pieces, as [`Pieces`] tells of them.
+fn of_order(order: usize, (nystrom, dilates): (bool, bool)) -> Option<Sweeps> {
+    if nystrom && dilates { Sweeps::near_integrable(order) } else { Sweeps::of_order(order, nystrom) }
 }
 
 /// Moves a sum by one step of a composition; how often its last piece flowed.
@@ -112,12 +110,16 @@ fn composed<S, C, P: Pieces<S, C>>(
     (t, state): (f64, &mut Sum<S>),
     h: f64,
 ) -> u64 {
-    let last = P::COUNT.saturating_sub(1);
-    let (mut elapsed, mut evaluations) = (0.0, 0);
-    sweeps.each(last + 1, |piece, part| {
-        pieces.flow(piece, t + elapsed * h, part * h, constants, state);
-        elapsed += if piece == 0 { part } else { 0.0 };
-        evaluations += u64::from(piece == last);
-    });
+    let mut evaluations = 0;
+    sweeps.each_timed(
+        P::COUNT,
+        (t, h),
+        // Called: as a part of the loop its numbers would not find as many registers.
+        #[inline(never)]
+        |piece, t, h| {
+            pieces.flow(piece, t, h, constants, state);
+            evaluations += u64::from(piece + 1 == P::COUNT);
+        },
+    );
     evaluations
 }

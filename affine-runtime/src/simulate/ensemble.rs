@@ -221,8 +221,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self.run_in::<F64x8>()
     }
 
-    /// The same in lanes of another number, a multiple of eight, or of another kind: in strict lanes the same bits, in
-    /// [fast](crate::lanes::FastF64x8) ones results that agree within the tolerance.
+    /// The same in lanes of another kind: in [fast](crate::lanes::FastF64x8) ones results that agree within the tolerance.
     ///
     /// # Errors
     /// As [`run`](Self::run).

@@ -2,7 +2,8 @@
 
 use core::ops::Range;
 
-use crate::model::{Description, Group, Quantity};
+use crate::model::{Description, Group, Model, Quantity};
+use crate::state::Phase;
 
 /// Where a state holds what a run looks at without expanding it.
 #[derive(Clone, Debug)]
@@ -90,4 +91,12 @@ pub(super) const fn is_free_in_pi(model: &Description) -> bool {
 /// Steps are taken on the group to which the motion is confined: the reduced state holds the placement.
 pub(super) const fn moves_on_group(model: &Description, n: usize) -> bool {
     model.constraint.is_some() && placement_in(model.reduced, n).is_some()
+}
+
+/// Steps of a body are looked at one by one: no placement stands in its state, the state is on a group, a mass matrix that
+/// depends on the placement may change its signature, or a potential does not have a value everywhere.
+pub(super) fn is_looked_after<const N: usize, M: Model<N>>(model: &M, point: &M::Point<f64>) -> bool {
+    let never =
+        const { placement_in(M::DESCRIPTION.reduced, N).is_none() || M::DESCRIPTION.constraint.is_some() };
+    never || !M::DESCRIPTION.domain.is_empty() || model.regularity(point.phi()).is_some()
 }

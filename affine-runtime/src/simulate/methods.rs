@@ -5,7 +5,7 @@ use super::by_radau::by_radau;
 use super::by_rattle::by_rattle;
 use super::choice::choose;
 use super::course::{Choice, Course};
-use super::layout::{Layout, has_work, moves_on_group};
+use super::layout::{Layout, carries_dilatation, has_work, moves_on_group};
 use super::method::Method;
 use super::motion::{At, Boxed, Purpose, begun, boxed, expansion};
 use super::range::in_range;
@@ -35,6 +35,22 @@ pub(super) fn named<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Mode
     choice: &mut Choice,
 ) -> Result<Boxed<'a, N, H>, Reason> {
     begin::<N, M, H, true>(model, course, choice)
+}
+
+/// Begins to integrate `model` by splitting in equal steps, which is what was asked for.
+pub(super) fn by_splitting<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
+    model: &H,
+    course: &Course<'_, M::Point<f64>>,
+    choice: &mut Choice,
+) -> Result<Boxed<'a, N, H>, Reason> {
+    let Method::Splitting { order, step } = course.method else {
+        return Err(not_emitted::<N, M>("splitting"));
+    };
+    choice.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) };
+    if choice.needs_determinant {
+        in_range(course.t0, model.model().orthonormal(course.start).phi())?;
+    }
+    by_pieces((model, course), |model: H| M::splitting(model), (order, step), &mut choice.evaluations)
 }
 
 /// Begins to integrate `model`. What depends on the model alone, and on whether the program names methods, is decided by

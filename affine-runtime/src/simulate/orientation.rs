@@ -13,7 +13,7 @@ use crate::state::Phase;
 
 /// Nothing in the equations of a body in a flat metric stops at `det phi = 0` unless its potential knows `q`; then the forces
 /// are singular there, and steps do not get past.
-pub(super) fn passes_through_zero(model: &Description) -> bool {
+pub(super) const fn passes_through_zero(model: &Description) -> bool {
     is_free_in_pi(model) && !carries_dilatation(model)
 }
 
@@ -32,13 +32,19 @@ pub(super) struct Moment<const N: usize> {
     speed: f64,
 }
 
+#[inline(always)]
 fn length<const N: usize>(matrix: &Matrix<N>) -> f64 {
     sum_of_squares(matrix.as_slice()).sqrt()
 }
 
 impl<const N: usize> Moment<N> {
     pub(super) fn of<P: Phase<N>>(model: &dyn Mechanics<N, P>, (t, point): (f64, &P)) -> Self {
-        let (phi, rate) = (*point.phi(), model.velocity(point).phi_dot);
+        Self::at(t, *point.phi(), model.velocity(point).phi_dot)
+    }
+
+    /// Of a placement and its velocity.
+    #[inline(always)]
+    pub(super) fn at(t: f64, phi: Matrix<N>, rate: Matrix<N>) -> Self {
         Self { t, phi, rate, size: length(&phi), speed: length(&rate) }
     }
 
@@ -59,7 +65,9 @@ impl<const N: usize> Moment<N> {
 
     /// Does it so clearly, as in most steps? By Frobenius norms: `|phi^-1|` is `|phi|/det phi` in the plane, and at most
     /// `|phi|^2/(3^(1/2) det phi)` in space. What has no such squares is left to the careful way: where the determinant is
-    /// above `LEAST_CHANGE |phi|^n`, changes whose squares vanish are below `LEAST_CHANGE |phi|`.
+    /// above `LEAST_CHANGE |phi|^n`, changes whose squares vanish are below `LEAST_CHANGE |phi|`. Without branches, for many bodies
+    /// at once.
+    #[inline(always)]
     pub(super) fn clearly_reaches(&self, other: &Self) -> bool {
         let (size, h) = (self.size, (other.t - self.t).abs());
         let change = length(&(other.phi - self.phi)) + LEAST_CHANGE * size;
@@ -68,9 +76,9 @@ impl<const N: usize> Moment<N> {
         let bound = match N {
             2 => size * (change + bend),
             3 => size * size * (change + bend) / 3.0_f64.sqrt(),
-            _ => return false,
+            _ => f64::NAN,
         };
-        bound < LARGEST_CHANGE * determinant && determinant.is_finite()
+        (bound < LARGEST_CHANGE * determinant) & determinant.is_finite()
     }
 }
 

@@ -244,7 +244,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
 }
 
 /// Refuses a start that is no point, or at no time.
-fn placed_at<const N: usize, P: Phase<N>>((t, point): &(f64, P)) -> Result<(), Reason> {
+pub(super) fn placed_at<const N: usize, P: Phase<N>>((t, point): &(f64, P)) -> Result<(), Reason> {
     match t.is_finite() {
         true => check(*t, point),
         false => Err(Setting::Time { name: "the time of the start", given: *t }.into()),

@@ -21,8 +21,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     let Some(Programs { pieces, nystrom, .. }) = &context.model.methods.splitting else {
         return TokenStream::new();
     };
-    let rt = &context.names.rt;
-    let t = &context.names.scalar;
+    let (rt, t, inline) = (&context.names.rt, &context.names.scalar, context.inline());
     let names = pieces.iter().map(|(name, _)| name);
     let bodies: Vec<TokenStream> =
         pieces.iter().map(|(_, flows)| flows.iter().map(|flow| written(context, flow)).collect()).collect();
@@ -58,7 +57,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         const NYSTROM: ::core::primitive::bool = #nystrom;
         #dilates
 
-        #[inline]
+        #inline
         fn flow<#t: #rt::Real>(
             &self,
             #piece: #rt::usize,

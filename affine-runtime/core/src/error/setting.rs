@@ -103,6 +103,13 @@ pub enum Setting {
         /// How many there are.
         of: u64,
     },
+    /// There is no such body of a frame loop.
+    Body {
+        /// Its number.
+        number: usize,
+        /// How many there are.
+        of: usize,
+    },
     /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
     Step {
         /// Its value.
@@ -249,6 +256,7 @@ impl fmt::Display for Setting {
                 "the checkpoint is not of this run of {model}, or not as it was written: resume with the model, its \
                  parameters, the start, method, tolerance, times, outputs and events of the run that was interrupted"
             ),
+            Setting::Body { number, of } => write!(f, "body {number} of {of}: bodies are counted from 0"),
             Setting::Shard { k, of } => write!(f, "shard {k} of {of}: shards are counted from 0"),
             Setting::Step { given, t0, t_end } => write!(
                 f,

@@ -76,7 +76,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Adaptive<HalvedSteps<S, C, P>> {
         t_end: f64,
         tolerance: f64,
     ) -> Option<Result<Self, Failure>> {
-        let sweeps = of_order::<S, C, P>(order.unwrap_or(ORDER))?;
+        let sweeps = of_order(order.unwrap_or(ORDER), (P::NYSTROM, P::DILATES))?;
         let slope = f(t0, &y0);
         let is_sound = sound(t0, t_end, tolerance).and_then(|()| match is_finite(&y0) && is_finite(&slope) {
             true => Ok(()),

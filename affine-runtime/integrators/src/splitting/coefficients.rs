@@ -149,24 +149,44 @@ impl Sweeps {
         self.order
     }
 
+    /// Calls `flow(piece, t, c h)` for the flows of a step of length `h`, with the time up to which the first piece has moved.
+    #[inline(always)]
+    pub(super) fn each_timed(
+        &self,
+        pieces: usize,
+        (t, h): (f64, f64),
+        mut flow: impl FnMut(usize, f64, f64),
+    ) {
+        let mut elapsed = 0.0;
+        self.each(
+            pieces,
+            #[inline(always)]
+            |piece, part| {
+                flow(piece, t + elapsed * h, part * h);
+                elapsed += if piece == 0 { part } else { 0.0 };
+            },
+        );
+    }
+
     /// Calls `flow(piece, c)` for the flows of one step in their order, `c h` being their times.
-    #[inline]
+    #[inline(always)]
     pub fn each(&self, pieces: usize, mut flow: impl FnMut(usize, f64)) {
         let last = pieces.saturating_sub(1);
         let piece = |place: usize| if self.from_last { last - place } else { place };
         if last == 0 {
             return flow(0, 1.0);
         }
-        let weights = &self.weights[..self.count];
-        flow(piece(0), weights[0]);
-        for (j, weight) in weights.iter().enumerate() {
+        let mut before = 0.0;
+        for j in 0..=self.count {
+            let weight = self.weights.get(j).copied().unwrap_or(0.0);
             let forth = j % 2 == 0;
-            for place in 1..last {
-                flow(piece(if forth { place } else { last - place }), *weight);
+            let places = if j == self.count { 1 } else { last };
+            for place in 0..places {
+                // At the flow where a sweep ends the next one begins.
+                let part = if place == 0 { before + weight } else { weight };
+                flow(piece(if forth { place } else { last - place }), part);
             }
-            // The flow at which a sweep ends and the next one begins.
-            let next = weights.get(j + 1).copied().unwrap_or(0.0);
-            flow(piece(if forth { last } else { 0 }), weight + next);
+            before = weight;
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::integrate::FusedArithmetic;
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
-use crate::simulate::layout::placement_in;
+use crate::simulate::layout::is_looked_after;
 use crate::simulate::mechanics::Moving;
 use crate::simulate::method::Method;
 use crate::simulate::methods::automatic;
@@ -145,16 +145,10 @@ where
         if model.geodesic(t0, point).is_some() {
             return Some(Method::ClosedForm);
         }
-        let is_placed = const { placement_in(H::Model::DESCRIPTION.reduced, N).is_some() };
-        // The signature of a mass matrix that depends on the placement is looked after step by step, as the domain of a
-        // potential is, and the orientation of a body that nothing keeps from losing it within them.
-        let is_special = H::Model::DESCRIPTION.constraint.is_some()
-            || !H::Model::DESCRIPTION.domain.is_empty()
-            || model.regularity(point.phi()).is_some()
-            || passes_through_zero(&H::Model::DESCRIPTION);
+        let is_special = is_looked_after(model, point) || passes_through_zero(&H::Model::DESCRIPTION);
         let stands = point.is_finite() && is_clearly_positive(point.phi());
         let is_sound = stands && model.hamiltonian(t0, point).is_finite();
-        (!is_placed || is_special || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
+        (is_special || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
     }
 
     /// One body by itself.

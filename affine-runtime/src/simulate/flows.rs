@@ -1,0 +1,356 @@
+//! Many bodies that are stepped together: for loops that are not the library's own.
+
+mod eight;
+mod pieces;
+
+use core::fmt;
+
+use super::failed::failed;
+use super::mechanics::Moving;
+use super::method::Method;
+use super::methods::by_splitting;
+use super::motion::{PointOf, Stepping};
+use super::settings::{Plan, long_enough};
+use super::stepped::{Stepped, placed_at};
+use crate::capability::{InLanes, Splitting};
+use crate::error::{Reason, Setting, Stop};
+use crate::inner::step_count;
+use crate::integrate::Failure;
+use crate::lanes::{F64x8, Lanes};
+use crate::model::{Handle, Model};
+use eight::{Eight, Left};
+
+/// Bodies of one frame loop, [`F64x8`] of them at once in the vectors of the processor: each is where a [`Flow`](super::Flow) by
+/// [`Method::Splitting`] would have it, to the bit.
+///
+/// All bodies are at the same time and take the same steps. Points and models may be replaced between frames, those of each body
+/// by themselves.
+///
+/// ```
+/// use affine_runtime::model::Owned;
+/// use affine_runtime::prelude::*;
+///
+/// #[affine_model(
+///     dim = 3, kinetic(dalembert = 0.1, space_translation = 1),
+///     potential = orthogonality(1e3) + g*x[3], emit(splitting, lanes),
+/// )]
+/// #[derive(Clone, Copy)]
+/// struct Block {
+///     g: f64,
+/// }
+///
+/// let block = Block { g: 9.81 }.prepare()?;
+/// let start = |k: i32| {
+///     let x = Vector::<3>::new(f64::from(k), 0.0, 5.0);
+///     block.at_velocity(x, Matrix::identity(), Vector::zeros(), Matrix::<3>::zeros())
+/// };
+/// let bodies = (0..100).map(|k| Ok((Owned(block), start(k)?)));
+/// let bodies = bodies.collect::<affine_runtime::Result<Vec<_>>>()?;
+/// let dt = 1.0 / 60.0;
+/// let mut flows = Flows::by_splitting((2, dt / 4.0), 0.0, bodies)?;
+/// for frame in 1..=30 {
+///     flows.advance_to(f64::from(frame) * dt)?;
+/// }
+/// assert!(flows.points().all(|point| (point.x()[2] - (5.0 - 9.81 / 8.0)).abs() < 1e-12));
+///
+/// flows.set_model(7, Owned(Block { g: -1.0 }.prepare()?))?; // one of them rises from here on
+/// flows.advance(dt)?;
+/// # Ok::<(), affine_runtime::Error>(())
+/// ```
+///
+/// A body that cannot go on in lanes goes on alone, as a `Flow` does. So do from the start those whose steps are looked after one by
+/// one: under a constraint, with a mass matrix that may degenerate, or with a potential that does not have a value everywhere. With the
+/// feature `parallel` the bodies in lanes are spread over the threads of the current `rayon` pool.
+pub struct Flows<'a, const N: usize, H: Handle<N> + 'a>
+where
+    H::Model: InLanes<N> + Splitting<N>,
+{
+    plan: Plan,
+    /// The time of the last frame.
+    t: f64,
+    eights: Vec<Eight<N, H>>,
+    /// Those that are in no lane.
+    alone: Vec<Option<Box<Alone<'a, N, H>>>>,
+}
+
+/// A body that moves by itself, with what kept it from the time of the others.
+struct Alone<'a, const N: usize, H: Handle<N> + 'a> {
+    body: Stepped<'a, N, H>,
+    stop: Option<Stop>,
+}
+
+impl<'a, const N: usize, H: Handle<N> + 'a> Flows<'a, N, H>
+where
+    H::Model: InLanes<N> + Splitting<N>,
+{
+    /// Bodies from phase points at one time, by splitting of an order, 2, 4, 6 or 8, in equal steps that are not longer than `step`.
+    ///
+    /// # Errors
+    /// As [`Flow::by`](super::Flow::by): a [`Stop`] with [`Reason::Setting`] for an order, a step or a time that makes no sense;
+    /// with other reasons for the first body at whose start there is no motion.
+    pub fn by_splitting(
+        (order, step): (usize, f64),
+        t0: f64,
+        bodies: impl IntoIterator<Item = (H, PointOf<N, H>)>,
+    ) -> Result<Self, Stop> {
+        let plan = Plan { method: Method::Splitting { order, step }, ..Plan::default() };
+        let begun = Self::begun(plan, (order, step), t0, bodies.into_iter().collect());
+        begun.map_err(|reason| Stop { reason, t: t0, steps: 0 })
+    }
+
+    fn begun(
+        plan: Plan,
+        (order, step): (usize, f64),
+        t0: f64,
+        bodies: Vec<(H, PointOf<N, H>)>,
+    ) -> Result<Self, Reason> {
+        plan.checked_method(&H::Model::DESCRIPTION)?;
+        if !t0.is_finite() {
+            return Err(Setting::Time { name: "the time of the start", given: t0 }.into());
+        }
+        plan.checked_step(t0, t0)?;
+        let mut flows =
+            Self { plan, t: t0, eights: Vec::new(), alone: bodies.iter().map(|_| None).collect() };
+        for bodies in bodies.chunks(F64x8::LANES) {
+            let eight = Eight::new((order, step), t0, bodies).ok_or(Setting::Order { given: order })?;
+            flows.eights.push(eight.map_err(|failure| flows.failed(failure))?);
+        }
+        for (number, (handle, point)) in bodies.into_iter().enumerate() {
+            flows.put(number, handle, point)?;
+        }
+        Ok(flows)
+    }
+
+    /// Puts a body into its lane, or aside.
+    fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
+        placed_at(&(self.t, point))?;
+        let alone = match self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point))
+        {
+            true => None,
+            false => Some(Box::new(Alone { body: self.stepped(handle, (self.t, point))?, stop: None })),
+        };
+        if let Some(place) = self.alone.get_mut(number) {
+            *place = alone;
+        }
+        Ok(())
+    }
+
+    /// A body by itself.
+    fn stepped(&self, handle: H, start: (f64, PointOf<N, H>)) -> Result<Stepped<'a, N, H>, Reason> {
+        Stepped::begin(Moving { handle: Stepping(handle), begin: by_splitting }, self.plan.clone(), start)
+    }
+
+    /// Where a body is in lanes, or would be.
+    fn eight(&self, number: usize) -> Option<(&Eight<N, H>, usize)> {
+        self.eights.get(number / F64x8::LANES).map(|eight| (eight, number % F64x8::LANES))
+    }
+
+    fn eight_mut(&mut self, number: usize) -> Option<(&mut Eight<N, H>, usize)> {
+        self.eights.get_mut(number / F64x8::LANES).map(|eight| (eight, number % F64x8::LANES))
+    }
+
+    /// Number of bodies.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.alone.len()
+    }
+
+    /// There are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.alone.is_empty()
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// The phase point that a body has reached; `None` where there are fewer.
+    #[must_use]
+    pub fn point(&self, number: usize) -> Option<PointOf<N, H>> {
+        match self.alone.get(number)? {
+            Some(alone) => Some(alone.body.point()),
+            None => self.eight(number).map(|(eight, lane)| eight.point(lane)),
+        }
+    }
+
+    /// The phase points of all bodies, in their order.
+    pub fn points(&self) -> impl Iterator<Item = PointOf<N, H>> {
+        (0..self.len()).filter_map(|number| self.point(number))
+    }
+
+    /// The model of a body; `None` where there are fewer.
+    #[must_use]
+    pub fn model(&self, number: usize) -> Option<&H::Model> {
+        self.handle(number).map(Handle::model)
+    }
+
+    fn handle(&self, number: usize) -> Option<&H> {
+        match self.alone.get(number)? {
+            Some(alone) => Some(&alone.body.moving().handle.0),
+            None => self.eight(number).map(|(eight, lane)| eight.handle(lane)),
+        }
+    }
+
+    /// Puts a body elsewhere, at the time reached. One that had stopped goes on with the others.
+    ///
+    /// # Errors
+    /// Those of a point that is none, [`Setting::Body`] for a body that is none; the body stays as it is.
+    pub fn set_point(&mut self, number: usize, point: PointOf<N, H>) -> Result<(), Stop> {
+        let put = self.handle(number).cloned().ok_or(self.no_body(number));
+        put.and_then(|handle| self.put(number, handle, point)).map_err(|reason| self.stopped_by(reason))
+    }
+
+    /// Replaces the model of a body by one with other fields; placement and momenta stay what they are.
+    ///
+    /// # Errors
+    /// As [`set_point`](Self::set_point) of the point reached.
+    pub fn set_model(&mut self, number: usize, model: H) -> Result<(), Stop> {
+        let put = self.point(number).ok_or(self.no_body(number));
+        put.and_then(|point| self.put(number, model, point)).map_err(|reason| self.stopped_by(reason))
+    }
+
+    fn failed(&self, failure: Failure) -> Reason {
+        failed(failure, (self.plan.method, self.plan.tolerance), H::Model::DESCRIPTION.name)
+    }
+
+    fn no_body(&self, number: usize) -> Reason {
+        Setting::Body { number, of: self.len() }.into()
+    }
+
+    fn stopped_by(&self, reason: Reason) -> Stop {
+        Stop { reason, t: self.t, steps: 0 }
+    }
+
+    /// The bodies that did not come to the time reached, with the reasons. Each is at its last good point, from which
+    /// [`advance_to`](Self::advance_to) tries again, unless it is [put elsewhere](Self::set_point).
+    pub fn stopped(&self) -> impl Iterator<Item = (usize, &Stop)> {
+        let alone = self.alone.iter().enumerate();
+        alone.filter_map(|(number, alone)| Some((number, alone.as_ref()?.stop.as_ref()?)))
+    }
+}
+
+impl<'a, const N: usize, H: Handle<N> + Send + Sync + 'a> Flows<'a, N, H>
+where
+    H::Model: InLanes<N> + Splitting<N>,
+    PointOf<N, H>: Send,
+{
+    /// Moves all bodies on by a time, forward or backward; by none they stay.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to); [`Setting::Step`] for a time that is lost in the rounding of [`t`](Self::t).
+    pub fn advance(&mut self, dt: f64) -> Result<(), Stop> {
+        let (t0, t_end) = (self.t, self.t + dt);
+        if t_end == t0 && dt != 0.0 {
+            return Err(self.stopped_by(Setting::Step { given: dt.abs(), t0, t_end }.into()));
+        }
+        self.advance_to(t_end)
+    }
+
+    /// Moves all bodies to a time, earlier or later, which is reached exactly.
+    ///
+    /// # Errors
+    /// A [`Stop`] of settings, before anything has moved; else that of the first body that did not get there. All others are there
+    /// even so: [`stopped`](Self::stopped) tells which are not.
+    pub fn advance_to(&mut self, t_end: f64) -> Result<(), Stop> {
+        let count = self.step_count(t_end).map_err(|reason| self.stopped_by(reason))?;
+        if count == 0 {
+            return Ok(());
+        }
+        let left = moved(&mut self.eights, t_end).map_err(|failure| self.stopped_by(self.failed(failure)))?;
+        self.t = t_end;
+        let mut first = Ok(());
+        for (number, start) in left {
+            first = first.and(self.leave(number, start));
+        }
+        first?;
+        for alone in self.alone.iter_mut().flatten() {
+            let moved = alone.body.move_to(t_end);
+            let (t, steps) = (alone.body.t(), alone.body.statistics().steps);
+            alone.stop = moved.err().map(|reason| Stop { reason, t, steps });
+        }
+        let first = self.stopped().next().map(|(_, stop)| *stop);
+        first.map_or(Ok(()), Err)
+    }
+
+    /// Lets a body go on by itself from where it left its lane.
+    fn leave(&mut self, number: usize, (t, point): Left<PointOf<N, H>>) -> Result<(), Stop> {
+        let handle = self.handle(number).cloned().ok_or(self.no_body(number));
+        let body = handle.and_then(|handle| self.stepped(handle, (t, point)));
+        let body = body.map_err(|reason| Stop { reason, t, steps: 0 })?;
+        if let Some(place) = self.alone.get_mut(number) {
+            *place = Some(Box::new(Alone { body, stop: None }));
+        }
+        Ok(())
+    }
+
+    /// Steps to a time.
+    fn step_count(&self, t_end: f64) -> Result<u64, Reason> {
+        if !t_end.is_finite() {
+            return Err(Setting::Time { name: "the time to move to", given: t_end }.into());
+        }
+        long_enough(self.t, t_end)?;
+        self.plan.checked_step(self.t, t_end)?;
+        let (step, limit) = (self.plan.method.step().unwrap_or(f64::NAN), self.plan.max_steps);
+        let count = step_count(self.t, t_end, step).unwrap_or(u64::MAX);
+        if count <= limit { Ok(count) } else { Err(Reason::StepLimit { limit }) }
+    }
+}
+
+/// Bodies that left their lanes, by their numbers.
+type AllLeft<const N: usize, H> = Vec<(usize, Left<PointOf<N, H>>)>;
+
+/// Moves all bodies in lanes to a time, but for those that cannot go on there.
+#[cfg(not(feature = "parallel"))]
+fn moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
+where
+    H: Handle<N>,
+    H::Model: InLanes<N> + Splitting<N>,
+{
+    let mut all = Vec::new();
+    for (place, eight) in eights.iter_mut().enumerate() {
+        eight.move_to(t_end, place, &mut all)?;
+    }
+    Ok(all)
+}
+
+/// The same on the threads of the pool.
+#[cfg(feature = "parallel")]
+fn moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
+where
+    H: Handle<N> + Send + Sync,
+    H::Model: InLanes<N> + Splitting<N>,
+    PointOf<N, H>: Send,
+{
+    use rayon::prelude::*;
+    let parts = eights.par_chunks_mut(AT_LEAST).enumerate();
+    let moved = parts.map(|(part, eights)| {
+        let mut left = Vec::new();
+        let places = part * AT_LEAST..;
+        places.zip(eights).try_for_each(|(place, eight)| eight.move_to(t_end, place, &mut left))?;
+        Ok(left)
+    });
+    let left: Vec<AllLeft<N, H>> = moved.collect::<Result<_, _>>()?;
+    Ok(left.into_iter().flatten().collect())
+}
+
+/// Groups of bodies that are worth another thread.
+#[cfg(feature = "parallel")]
+const AT_LEAST: usize = 16;
+
+impl<'a, const N: usize, H: Handle<N> + 'a> fmt::Debug for Flows<'a, N, H>
+where
+    H::Model: InLanes<N> + Splitting<N>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Flows")
+            .field("model", &H::Model::DESCRIPTION.name)
+            .field("bodies", &self.len())
+            .field("alone", &self.alone.iter().flatten().count())
+            .field("t", &self.t)
+            .field("method", &self.plan.method)
+            .finish_non_exhaustive()
+    }
+}
