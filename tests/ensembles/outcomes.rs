@@ -53,6 +53,29 @@ fn a_bad_body_does_not_touch_the_others() {
     }
 }
 
+/// A body whose stretches all pass through zero within one step has positive determinants at both of its ends.
+#[test]
+fn a_body_that_turns_inside_out_twice_within_a_step() {
+    let (zero, phi) = (Vector::<2>::zeros(), Matrix::<2>::identity());
+    let through = |rate: f64| Unprotected.at_momentum(zero, phi, zero, TwoPoint(-rate * phi)).unwrap();
+    let starts: Vec<_> = (0..BODIES).map(|k| through(0.1 + k as f64)).collect();
+    let ends = Ensemble::new(&Unprotected, starts.clone()).until(0.3).tolerance(1e-2).run().unwrap();
+    let mut lost = 0;
+    for (start, end) in starts.into_iter().zip(ends) {
+        let alone = Simulation::new(&Unprotected, start).until(0.3).tolerance(1e-2).output([]);
+        match (end, alone.method(Method::RungeKutta8).run()) {
+            (Ok(end), Ok(alone)) => assert_eq!(end, *alone.end().1),
+            (Err(stop), Err(halt)) => {
+                assert_eq!(stop, halt.stop);
+                assert!(matches!(stop.reason, Reason::Placement { .. }), "{stop}");
+                lost += 1;
+            }
+            (end, alone) => panic!("{end:?} {alone:?}"),
+        }
+    }
+    assert_eq!(lost, BODIES - 4, "those that are through by then");
+}
+
 #[test]
 fn all_bad_and_none_at_all() {
     let nan = Unprotected.unflatten(&[f64::NAN; 12]);

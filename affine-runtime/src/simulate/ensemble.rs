@@ -66,9 +66,8 @@ pub type Ends<P> = Vec<core::result::Result<P, Stop>>;
 /// neighbours, lanes, threads and shard. A body that cannot go on (numbers that are not finite, a collapse, a step that
 /// underflows, an event that changes the point) leaves its lane and is integrated alone: its outcome, an end or a [`Stop`],
 /// is that of a [`Simulation`](super::Simulation). Bodies with a closed form take that, bodies with stiff friction the Radau method, and bodies
-/// under a constraint, whose steps are taken on its group, are integrated one by one; so are bodies in a flat metric whose
-/// potential does not know `q`, of which every step is looked at whether `det phi` stays positive within it, and bodies under
-/// a potential that does not have a value everywhere.
+/// under a constraint, whose steps are taken on its group, are integrated one by one; so are bodies under a potential that does
+/// not have a value everywhere.
 ///
 /// Starts are taken from their iterator as they are needed, some thousand at a time, and are not kept: memory does not grow
 /// with their number, but for what a program keeps. An ensemble may be built in one thread and run in another: iterator, events and

@@ -91,7 +91,7 @@ impl<const N: usize> Guard<N> {
                 if !point.is_finite() {
                     return Err(Reason::NotFinite);
                 }
-                keeps_orientation(model, motion, (begin, &end), &reason)?;
+                keeps_orientation(model, &mut |t| motion.between(t).map_err(reason), (begin, &end))?;
             }
             *begin = end;
         }

@@ -2,7 +2,7 @@
 
 use super::layout::{carries_dilatation, is_free_in_pi};
 use super::mechanics::Mechanics;
-use super::motion::Motion;
+use super::motion::WithWork;
 use super::point::{check, determinant};
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -86,9 +86,8 @@ impl<const N: usize> Moment<N> {
 /// halved, with the dense output, down to the rounding of times.
 pub(super) fn keeps_orientation<const N: usize, P: Phase<N>>(
     model: &dyn Mechanics<N, P>,
-    motion: &mut dyn Motion<P>,
+    between: &mut dyn FnMut(f64) -> Result<WithWork<P>, Reason>,
     (begin, end): (&Moment<N>, &Moment<N>),
-    reason: &dyn Fn(crate::integrate::Failure) -> Reason,
 ) -> Result<(), Reason> {
     if begin.reaches(end) {
         return Ok(());
@@ -98,11 +97,11 @@ pub(super) fn keeps_orientation<const N: usize, P: Phase<N>>(
         let determinant = LogDeterminant::of(&end.phi).to_f64();
         return Err(Reason::Placement { determinant, rate: None, t: end.t });
     }
-    let (point, _) = motion.between(middle).map_err(reason)?;
+    let (point, _) = between(middle)?;
     check(middle, &point)?;
-    let between = Moment::of(model, (middle, &point));
-    keeps_orientation(model, motion, (begin, &between), reason)?;
-    keeps_orientation(model, motion, (&between, end), reason)
+    let halfway = Moment::of(model, (middle, &point));
+    keeps_orientation(model, between, (begin, &halfway))?;
+    keeps_orientation(model, between, (&halfway, end))
 }
 
 #[cfg(test)]

@@ -11,10 +11,14 @@ use crate::inner::{Start, starts_in_lanes};
 use crate::lanes::Lanes;
 use crate::model::{Group, Model, StateVector};
 use crate::simulate::layout::{Layout, placement_in};
-use crate::simulate::motion::WithWork;
+use crate::simulate::mechanics::Moving;
+use crate::simulate::methods::automatic;
+use crate::simulate::motion::{Followed, WithWork};
+use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
 use crate::simulate::point::is_clearly_positive;
 use crate::simulate::settings::Plan;
 use crate::simulate::watcher::Ends;
+use crate::state::Phase;
 
 /// A body before its first step.
 pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
@@ -61,6 +65,8 @@ pub(super) struct Bodies<'a, const N: usize, T: Lanes, M: InLanes<N>> {
     has_changed: bool,
     /// The ends of steps, where events are looked for.
     ends: Option<EndsInLanes<'a, N, M>>,
+    /// How bodies moved where their last steps ended, of a model that may lose its orientation within them.
+    moments: Vec<Option<Moment<N>>>,
 }
 
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
@@ -75,13 +81,14 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         let constants = M::constants_in_lanes(&[first.constants]);
         let equations = Reduced { first: first.model, models: vec![first.model; T::LANES], constants };
         let mut integration = RungeKutta8InLanes::new(equations, t_end, tolerance, max_steps);
-        if within_steps {
+        if within_steps || const { passes_through_zero(&M::DESCRIPTION) } {
             integration.keep();
         }
         let of_lanes = vec![(first.model, first.constants); T::LANES];
         let (bodies, has_changed) = (vec![None; T::LANES], false);
         let ends = has_events.then(|| EndsInLanes::new(T::LANES, (first.model, first.point)));
-        let mut lanes = Self { integration, t0, bodies, of_lanes, has_changed, ends };
+        let moments = vec![None; T::LANES];
+        let mut lanes = Self { integration, t0, bodies, of_lanes, has_changed, ends, moments };
         lanes.put(0, &first);
         let mut last = first;
         for lane in 1..T::LANES {
@@ -105,6 +112,24 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         if let Some(ends) = &mut self.ends {
             ends.begin(lane, begun.model, (self.t0, begun.point));
         }
+        if const { passes_through_zero(&M::DESCRIPTION) } {
+            let (point, _) = self.expanded(lane, self.t0, &begun.state);
+            self.moments[lane] = Some(Moment::of(&moving(begun.model), (self.t0, &point)));
+        }
+    }
+
+    /// The body in a lane keeps its orientation throughout its last step, and goes on from the end of it.
+    pub(super) fn keeps_orientation(&mut self, lane: usize) -> bool {
+        if const { !passes_through_zero(&M::DESCRIPTION) } {
+            return true;
+        }
+        let (t, (point, _)) = (self.t(lane), self.reached(lane));
+        let model = moving(self.of_lanes[lane].0);
+        let end = Moment::of(&model, (t, &point));
+        let Some(begin) = self.moments[lane].replace(end) else { return false };
+        let is_clear = begin.clearly_reaches(&end);
+        is_clear
+            || point.is_finite() && keeps_orientation(&model, &mut self.within(lane), (&begin, &end)).is_ok()
     }
 
     /// Leaves a lane without a body.
@@ -193,6 +218,11 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Bodies<'a, N, T, M> {
         let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work;
         (model.expand(t, constants, state), work.map_or(0.0, |place| state.as_ref()[place]))
     }
+}
+
+/// A model as far as its phase points go.
+pub(super) fn moving<'m, const N: usize, M: Model<N>>(model: &'m M) -> Moving<'m, N, Followed<'m, M>> {
+    Moving { handle: Followed(model), begin: automatic }
 }
 
 /// The steps of a model are in vectors, so that those of the processor decide whether its lanes are fused as well; where the

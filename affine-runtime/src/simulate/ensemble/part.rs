@@ -1,7 +1,7 @@
 //! Bodies of an ensemble one after the other through the same lanes.
 
 use super::asked::{Asked, Member, Start};
-use super::bodies::{Bodies, begun, has_fused_lanes};
+use super::bodies::{Bodies, begun, has_fused_lanes, moving};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
@@ -10,11 +10,8 @@ use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
 use crate::simulate::layout::is_looked_after;
-use crate::simulate::mechanics::Moving;
 use crate::simulate::method::Method;
-use crate::simulate::methods::automatic;
-use crate::simulate::motion::{Followed, PointOf};
-use crate::simulate::orientation::passes_through_zero;
+use crate::simulate::motion::PointOf;
 use crate::simulate::point::Energy;
 use crate::simulate::point::is_clearly_positive;
 use crate::simulate::run::empty_trajectory;
@@ -120,6 +117,9 @@ where
         if fate == Next::Alone {
             return fate;
         }
+        if bodies.has_stepped(lane) && !bodies.keeps_orientation(lane) {
+            return Next::Alone;
+        }
         if self.within_steps && bodies.has_stepped(lane) {
             let t = bodies.t(lane);
             let events = bodies.ends(lane, |ends, turning| recording.look_at(ends, turning));
@@ -145,10 +145,9 @@ where
         if model.geodesic(t0, point).is_some() {
             return Some(Method::ClosedForm);
         }
-        let is_special = is_looked_after(model, point) || passes_through_zero(&H::Model::DESCRIPTION);
         let stands = point.is_finite() && is_clearly_positive(point.phi());
         let is_sound = stands && model.hamiltonian(t0, point).is_finite();
-        (is_special || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
+        (is_looked_after(model, point) || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
     }
 
     /// One body by itself.
@@ -164,8 +163,4 @@ where
         run.iter().for_each(|(t, point)| (self.add)(&mut folded, t, point));
         Member { number: start.number, end, t: run.end().0, events: run.events, folded }
     }
-}
-
-fn moving<'m, const N: usize, M: Model<N>>(model: &'m M) -> Moving<'m, N, Followed<'m, M>> {
-    Moving { handle: Followed(model), begin: automatic }
 }
