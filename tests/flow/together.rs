@@ -192,6 +192,8 @@ fn what_makes_no_sense_is_refused() {
     }
     assert!(matches!(flows.advance(1e300).unwrap_err().reason, Reason::Setting(Setting::Step { .. })));
     assert_eq!(flows.advance(1e5).unwrap_err().reason, Reason::StepLimit { limit: 1_000_000 });
+    flows.set_max_steps(10);
+    assert_eq!(flows.advance(0.101).unwrap_err().reason, Reason::StepLimit { limit: 10 });
     assert!(matches!(flows.advance(1e-320).unwrap_err().reason, Reason::Setting(Setting::Interval { .. })));
     assert!(flows.set_point(8, cube.unflatten(&[f64::NAN; 24])).is_err());
     for refused in [flows.set_point(9, points[0]), flows.set_model(9, Owned(cube))] {

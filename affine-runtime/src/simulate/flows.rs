@@ -216,6 +216,12 @@ where
         failed(failure, (self.plan.method, self.plan.tolerance), H::Model::DESCRIPTION.name)
     }
 
+    /// Largest number of steps to one time; a million if not set.
+    pub fn set_max_steps(&mut self, max_steps: u64) {
+        self.plan.max_steps = max_steps;
+        self.alone.iter_mut().flatten().for_each(|alone| alone.body.limit(max_steps));
+    }
+
     fn no_body(&self, number: usize) -> Reason {
         Setting::Body { number, of: self.len() }.into()
     }
