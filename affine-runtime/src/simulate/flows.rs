@@ -124,15 +124,20 @@ where
     /// Puts a body into its lane, or aside.
     fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
         placed_at(&(self.t, point))?;
-        let alone = match self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point))
-        {
-            true => None,
-            false => Some(Box::new(Alone { body: self.stepped(handle, (self.t, point))?, stop: None })),
-        };
-        if let Some(place) = self.alone.get_mut(number) {
-            *place = alone;
-        }
+        let fits = self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point));
+        let alone = if fits { None } else { Some(self.stepped(handle, (self.t, point))?) };
+        self.goes(number, alone);
         Ok(())
+    }
+
+    /// Lets a body go by itself, or in its lane.
+    fn goes(&mut self, number: usize, alone: Option<Stepped<'a, N, H>>) {
+        if let (Some(_), Some((eight, lane))) = (&alone, self.eight_mut(number)) {
+            eight.rest(lane);
+        }
+        if let Some(place) = self.alone.get_mut(number) {
+            *place = alone.map(|body| Box::new(Alone { body, stop: None }));
+        }
     }
 
     /// A body by itself.
@@ -203,7 +208,8 @@ where
         put.and_then(|handle| self.put(number, handle, point)).map_err(|reason| self.stopped_by(reason))
     }
 
-    /// Replaces the model of a body by one with other fields; placement and momenta stay what they are.
+    /// Replaces the model of a body by one with other fields; placement and momenta stay what they are. One that had stopped goes
+    /// on with the others.
     ///
     /// # Errors
     /// As [`set_point`](Self::set_point) of the point reached.
@@ -285,10 +291,7 @@ where
     fn leave(&mut self, number: usize, (t, point): Left<PointOf<N, H>>) -> Result<(), Stop> {
         let handle = self.handle(number).cloned().ok_or(self.no_body(number));
         let body = handle.and_then(|handle| self.stepped(handle, (t, point)));
-        let body = body.map_err(|reason| Stop { reason, t, steps: 0 })?;
-        if let Some(place) = self.alone.get_mut(number) {
-            *place = Some(Box::new(Alone { body, stop: None }));
-        }
+        self.goes(number, Some(body.map_err(|reason| Stop { reason, t, steps: 0 })?));
         Ok(())
     }
 

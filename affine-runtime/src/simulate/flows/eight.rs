@@ -54,19 +54,24 @@ where
         }))
     }
 
-    /// Puts a body into a lane at the time reached; `false` where it is to move by itself.
+    /// Puts a body into a lane at the time reached; `false` where it is to move by itself, and the lane stays as it is.
     pub(super) fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool {
         let (model, (t, _)) = (handle.model(), self.integration.end());
         let (state, constants) = model.reduce(t, point);
-        self.has_body[lane] = !is_looked_after(model, point) && stands::<N, H>(&state);
-        if self.has_body[lane] {
+        let fits = !is_looked_after(model, point) && stands::<N, H>(&state);
+        if fits {
             self.integration.put(lane, &state);
-            self.anew[lane] = Some(*point);
+            (self.has_body[lane], self.anew[lane]) = (true, Some(*point));
             let pieces = self.integration.pieces_mut();
             (pieces.handles[lane], pieces.of_lanes[lane]) = (handle.clone(), constants);
             pieces.constants = H::Model::constants_in_lanes(&pieces.of_lanes);
         }
-        self.has_body[lane]
+        fits
+    }
+
+    /// Leaves a lane without a body.
+    pub(super) fn rest(&mut self, lane: usize) {
+        self.has_body[lane] = false;
     }
 
     /// The model of the body in a lane.
@@ -103,7 +108,7 @@ where
                 if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
                     let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
                     left.push((EIGHT * place + lane, (begin.0, point)));
-                    self.has_body[lane] = false;
+                    self.rest(lane);
                 }
             }
             self.anew.iter_mut().for_each(|point| *point = None);
