@@ -271,7 +271,8 @@ where
         if count == 0 {
             return Ok(());
         }
-        let left = moved(&mut self.eights, t_end).map_err(|failure| self.stopped_by(self.failed(failure)))?;
+        let left =
+            all_moved(&mut self.eights, t_end).map_err(|failure| self.stopped_by(self.failed(failure)))?;
         self.t = t_end;
         let mut first = Ok(());
         for (number, start) in left {
@@ -311,36 +312,45 @@ where
 /// Bodies that left their lanes, by their numbers.
 type AllLeft<const N: usize, H> = Vec<(usize, Left<PointOf<N, H>>)>;
 
-/// Moves all bodies in lanes to a time, but for those that cannot go on there.
-#[cfg(not(feature = "parallel"))]
-fn moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
+/// Moves bodies in lanes to a time, but for those that cannot go on there; `place` is the number of the first eight.
+fn moved<const N: usize, H: Handle<N>>(
+    (place, eights): (usize, &mut [Eight<N, H>]),
+    t_end: f64,
+) -> Result<AllLeft<N, H>, Failure>
 where
-    H: Handle<N>,
     H::Model: InLanes<N> + Splitting<N>,
 {
-    let mut all = Vec::new();
-    for (place, eight) in eights.iter_mut().enumerate() {
-        eight.move_to(t_end, place, &mut all)?;
-    }
-    Ok(all)
+    let mut left = Vec::new();
+    (place..).zip(eights).try_for_each(|(place, eight)| eight.move_to(t_end, place, &mut left))?;
+    Ok(left)
 }
 
-/// The same on the threads of the pool.
+/// The same of all of them.
+#[cfg(not(feature = "parallel"))]
+fn all_moved<const N: usize, H: Handle<N>>(
+    eights: &mut [Eight<N, H>],
+    t_end: f64,
+) -> Result<AllLeft<N, H>, Failure>
+where
+    H::Model: InLanes<N> + Splitting<N>,
+{
+    moved((0, eights), t_end)
+}
+
+/// The same of all of them on the threads of the pool.
 #[cfg(feature = "parallel")]
-fn moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
+fn all_moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
 where
     H: Handle<N> + Send + Sync,
     H::Model: InLanes<N> + Splitting<N>,
     PointOf<N, H>: Send,
 {
     use rayon::prelude::*;
+    if eights.len() <= AT_LEAST {
+        return moved((0, eights), t_end);
+    }
     let parts = eights.par_chunks_mut(AT_LEAST).enumerate();
-    let moved = parts.map(|(part, eights)| {
-        let mut left = Vec::new();
-        let places = part * AT_LEAST..;
-        places.zip(eights).try_for_each(|(place, eight)| eight.move_to(t_end, place, &mut left))?;
-        Ok(left)
-    });
+    let moved = parts.map(|(part, eights)| moved((part * AT_LEAST, eights), t_end));
     let left: Vec<AllLeft<N, H>> = moved.collect::<Result<_, _>>()?;
     Ok(left.into_iter().flatten().collect())
 }
