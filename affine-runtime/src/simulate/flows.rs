@@ -60,7 +60,7 @@ use eight::{Eight, Left};
 ///
 /// A body that cannot go on in lanes goes on alone, as a `Flow` does. So do from the start those whose steps are looked after one by
 /// one: under a constraint, with a mass matrix that may degenerate, or with a potential that does not have a value everywhere. With the
-/// feature `parallel` the bodies in lanes are spread over the threads of the current `rayon` pool.
+/// feature `parallel` more than 512 bodies in lanes are spread over the threads of the current `rayon` pool.
 pub struct Flows<'a, const N: usize, H: Handle<N> + 'a>
 where
     H::Model: InLanes<N> + Splitting<N>,
@@ -355,9 +355,9 @@ where
     Ok(left.into_iter().flatten().collect())
 }
 
-/// Groups of bodies that are worth another thread.
+/// Eights that are worth another thread: to wake one takes as long as some steps of a hundred bodies.
 #[cfg(feature = "parallel")]
-const AT_LEAST: usize = 16;
+const AT_LEAST: usize = 64;
 
 impl<'a, const N: usize, H: Handle<N> + 'a> fmt::Debug for Flows<'a, N, H>
 where
