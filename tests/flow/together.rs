@@ -170,6 +170,25 @@ fn a_body_that_stops_does_not_stop_the_others() {
     assert!(format!("{flows:?}").contains("alone: 0"), "{flows:?}");
 }
 
+/// So many that threads share them: each is still the body of its number.
+#[test]
+fn more_bodies_than_one_thread_takes() {
+    let kept = dust();
+    let falls = |k: usize| [3, 700, 1099].contains(&k);
+    let bodies: Vec<_> = (0..1100).map(|k| if falls(k) { kept[2] } else { kept[0] }).collect();
+    let point =
+        |k: usize| kept[0].0.0.at_momentum(*kept[0].1.phi() * (1.0 + 1e-4 * k as f64), kept[0].1.pi());
+    let mut flows = Flows::by_splitting((2, STEP), 0.0, bodies.iter().copied()).unwrap();
+    (0..1100).filter(|k| !falls(*k)).for_each(|k| flows.set_point(k, point(k).unwrap()).unwrap());
+    assert!(flows.advance(1.0).is_err());
+    assert!(flows.stopped().map(|(number, _)| number).eq([3, 700, 1099]));
+    for k in (0..1100).step_by(89) {
+        let mut alone = Flow::by(METHOD, bodies[k].0, (0.0, point(k).unwrap())).unwrap();
+        alone.advance(1.0).unwrap();
+        assert_eq!(flows.point(k).unwrap(), alone.point(), "{k}");
+    }
+}
+
 #[test]
 fn what_makes_no_sense_is_refused() {
     let said = |(order, step), t0, bodies| {
