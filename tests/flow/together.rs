@@ -72,6 +72,30 @@ fn points_and_models_change_between_frames() {
     assert!(flows.points().eq(alone.iter().map(Flow::point)));
 }
 
+/// In one step it turns by a quarter of a radian and more, so that it is looked at whether it kept its orientation.
+#[test]
+fn bodies_that_spin_fast_stay_in_lanes() {
+    let cube = block(9.81);
+    let start = |k: i32| {
+        let spin =
+            Matrix::<3>::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0) * (16.0 + 4.0 * f64::from(k));
+        cube.at_velocity(Vector::zeros(), Matrix::identity(), Vector::zeros(), spin).unwrap()
+    };
+    let bodies: Vec<_> = (0..9).map(|k| (Owned(cube), start(k))).collect();
+    let step = 1.0 / 64.0;
+    let mut flows = Flows::by_splitting((2, step), 0.0, bodies.clone()).unwrap();
+    let mut alone: Vec<_> = bodies
+        .iter()
+        .map(|(cube, start)| Flow::by(Method::Splitting { order: 2, step }, *cube, (0.0, *start)).unwrap())
+        .collect();
+    for _ in 0..32 {
+        flows.advance(step).unwrap();
+        alone.iter_mut().for_each(|body| body.advance(step).unwrap());
+        assert!(flows.points().eq(alone.iter().map(Flow::point)));
+    }
+    assert!(format!("{flows:?}").contains("alone: 0"), "{flows:?}");
+}
+
 fn are_where_each_is<const N: usize, M>(bodies: Vec<(Owned<M>, PointOf<N, M>)>, count: usize)
 where
     M: Model<N> + affine_runtime::capability::InLanes<N> + affine_runtime::capability::Splitting<N>,

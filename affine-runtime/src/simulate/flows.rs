@@ -58,7 +58,7 @@ use eight::{Eight, Left};
 /// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
-/// A body that cannot go on in lanes goes on alone, as a `Flow` does. So do from the start those whose steps are looked after one by
+/// A body that cannot go on in lanes goes on alone, as a `Flow` from its last good point, until it is put elsewhere. So do from the start those whose steps are looked after one by
 /// one: under a constraint, with a mass matrix that may degenerate, or with a potential that does not have a value everywhere. With the
 /// feature `parallel` more than 512 bodies in lanes are spread over the threads of the current `rayon` pool.
 pub struct Flows<'a, const N: usize, H: Handle<N> + 'a>
@@ -274,18 +274,17 @@ where
         let left =
             all_moved(&mut self.eights, t_end).map_err(|failure| self.stopped_by(self.failed(failure)))?;
         self.t = t_end;
-        let mut first = Ok(());
+        let mut begun = Ok(());
         for (number, start) in left {
-            first = first.and(self.leave(number, start));
+            begun = begun.and(self.leave(number, start));
         }
-        first?;
         for alone in self.alone.iter_mut().flatten() {
             let moved = alone.body.move_to(t_end);
             let (t, steps) = (alone.body.t(), alone.body.statistics().steps);
             alone.stop = moved.err().map(|reason| Stop { reason, t, steps });
         }
         let first = self.stopped().next().map(|(_, stop)| *stop);
-        first.map_or(Ok(()), Err)
+        begun.and(first.map_or(Ok(()), Err))
     }
 
     /// Lets a body go on by itself from where it left its lane.

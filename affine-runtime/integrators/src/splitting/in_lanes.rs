@@ -87,6 +87,23 @@ impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> SplittingInLanes<T, S,
         doubts
     }
 
+    /// The state in a lane at a time within the last step, by a shorter step from its beginning along the flows of the body
+    /// in it; `None` at the end of the step, and before one was taken.
+    pub fn within<R: StateVector<f64>>(
+        &self,
+        lane: usize,
+        t: f64,
+        mut flow: impl FnMut(usize, f64, f64, &mut Sum<R>),
+    ) -> Option<R> {
+        let (begin, from, h) = self.steps.again_to(t)?;
+        let mut state = Sum::of(R::zeros());
+        for (own, lanes) in [(&mut state.value, &from.value), (&mut state.carry, &from.carry)] {
+            own.as_mut().iter_mut().zip(lanes.as_ref()).for_each(|(own, lanes)| *own = lanes.lane(lane));
+        }
+        self.sweeps.each_timed(P::COUNT, (begin, h), |piece, t, h| flow(piece, t, h, &mut state));
+        Some(state.value)
+    }
+
     /// Goes on to another end.
     ///
     /// # Errors
@@ -223,6 +240,10 @@ mod tests {
                         assert_eq!((body.t(), *body.y()), (t, states.map(|number| number.lane(lane))));
                         let begin = lanes.begin().map(|(_, states)| states[0].lane(lane));
                         assert_eq!(begin, Some(before), "where the step began");
+                        let middle = t - 0.3 * STEP.copysign(t_end - 1.2);
+                        let of_one =
+                            |piece, t, h, state: &mut Sum<_>| Pieces::flow(&Driven, piece, t, h, &(), state);
+                        assert_eq!(lanes.within(lane, middle, of_one), Some(body.at(middle)?));
                         assert_eq!(doubts.lane(lane) != 0.0, (body.y()[0] - before).abs() > 0.01);
                     }
                 }

@@ -4,12 +4,16 @@ use core::array;
 
 use super::pieces::{EIGHT, Moved, Reduced, stands};
 use crate::capability::{InLanes, Splitting};
-use crate::inner::{SplittingInLanes, of_lane};
+use crate::error::Reason;
+use crate::inner::{SplittingInLanes, Sum, of_lane};
 use crate::integrate::Failure;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
 use crate::simulate::layout::is_looked_after;
-use crate::simulate::motion::PointOf;
+use crate::simulate::mechanics::Moving;
+use crate::simulate::methods::by_splitting;
+use crate::simulate::motion::{Followed, PointOf};
+use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
 
 /// Time and phase point where a body left its lane, the last good ones.
 pub(super) type Left<P> = (f64, P);
@@ -89,6 +93,28 @@ where
         handles[lane].model().expand(t, &of_lanes[lane], &of_lane(states, lane))
     }
 
+    /// The body in a lane keeps its orientation throughout its last step, looked at as by itself, and goes on from the end of it.
+    fn goes_on(&self, lane: usize) -> bool {
+        let (Moved { handles, of_lanes, .. }, (t_end, to)) =
+            (self.integration.pieces(), self.integration.end());
+        let Some((t, from)) = self.integration.begin() else { return false };
+        if const { !passes_through_zero(&H::Model::DESCRIPTION) } || !stands::<N, H>(&of_lane(to, lane)) {
+            return false;
+        }
+        let (model, constants) = (handles[lane].model(), &of_lanes[lane]);
+        let moving = Moving { handle: Followed(model), begin: by_splitting };
+        let begin = Moment::of(&moving, (t, &self.expanded(lane, (t, from))));
+        let end = Moment::of(&moving, (t_end, &self.expanded(lane, (t_end, to))));
+        let flow = |piece, t, h, state: &mut Sum<Reduced<N, H, f64>>| {
+            model.flow(piece, t, h, constants, &mut state.value, &mut state.carry);
+        };
+        let mut between = |t| {
+            let state = self.integration.within(lane, t, flow).ok_or(Reason::NotFinite)?;
+            Ok((model.expand(t, constants, &state), 0.0))
+        };
+        keeps_orientation(&moving, &mut between, (&begin, &end)).is_ok()
+    }
+
     /// Moves to a time; bodies that cannot go on here are added to those that left, of which these are number `place`
     /// among eights.
     ///
@@ -104,7 +130,8 @@ where
         while !self.integration.is_finished() {
             let doubts = self.integration.advance();
             for lane in 0..EIGHT {
-                let has_to_leave = self.has_body[lane] && doubts.lane(lane) != 0.0;
+                let is_doubtful = self.has_body[lane] && doubts.lane(lane) != 0.0;
+                let has_to_leave = is_doubtful && !self.goes_on(lane);
                 if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
                     let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
                     left.push((EIGHT * place + lane, (begin.0, point)));
