@@ -31,6 +31,7 @@ mod follow;
 mod format;
 mod friction;
 mod guard;
+mod in_lanes;
 mod interpolant;
 mod layout;
 mod mechanics;

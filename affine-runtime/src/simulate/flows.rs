@@ -1,30 +1,36 @@
 //! Many bodies that are stepped together: for loops that are not the library's own.
 
+mod by_error;
+mod by_splitting;
 mod eight;
 mod pieces;
 
 use core::fmt;
 
 use super::failed::failed;
-use super::mechanics::Moving;
+use super::in_lanes::{EIGHT, Together, has_fused_lanes};
+use super::mechanics::{Begin, Moving};
 use super::method::Method;
-use super::methods::by_splitting;
+use super::methods::{by_any_steps, by_splitting};
 use super::motion::{PointOf, Stepping};
 use super::settings::{Plan, long_enough};
 use super::stepped::{Stepped, placed_at};
 use crate::capability::{InLanes, Splitting};
 use crate::error::{Reason, Setting, Stop};
 use crate::inner::step_count;
-use crate::integrate::Failure;
+use crate::integrate::{Failure, FusedArithmetic};
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
+use by_error::ByError;
+use by_splitting::BySplitting;
 use eight::{Eight, Left};
 
 /// Bodies of one frame loop, [`F64x8`] of them at once in the vectors of the processor: each is where a [`Flow`](super::Flow) by
-/// [`Method::Splitting`] would have it, to the bit.
+/// the same method would have it, to the bit.
 ///
-/// All bodies are at the same time and take the same steps. Points and models may be replaced between frames, those of each body
-/// by themselves.
+/// All bodies are at the same time between frames. [By splitting](Self::by_splitting) they take the same equal steps;
+/// [by Runge-Kutta steps](Self::by_runge_kutta) each takes its own, as long as a tolerance allows. Points and models may be
+/// replaced between frames, those of each body by themselves.
 ///
 /// ```
 /// use affine_runtime::model::Owned;
@@ -58,20 +64,26 @@ use eight::{Eight, Left};
 /// # Ok::<(), affine_runtime::Error>(())
 /// ```
 ///
-/// A body that cannot go on in lanes goes on alone, as a `Flow` from its last good point, until it is put elsewhere. So do from the start those whose steps are looked after one by
-/// one: under a constraint, with a mass matrix that may degenerate, or with a potential that does not have a value everywhere. With the
-/// feature `parallel` more than 512 bodies in lanes are spread over the threads of the current `rayon` pool.
+/// A body that cannot go on in lanes goes on alone, as a `Flow` from its last good point, until it is put elsewhere. So do from
+/// the start those whose steps are looked after one by one: under a constraint, with a mass matrix that may degenerate, or with
+/// a potential that does not have a value everywhere. With the feature `parallel` more than 512 bodies in lanes are spread over
+/// the threads of the current `rayon` pool.
 pub struct Flows<'a, const N: usize, H: Handle<N> + 'a>
 where
-    H::Model: InLanes<N> + Splitting<N>,
+    H::Model: InLanes<N>,
 {
     plan: Plan,
+    /// What moves a body by itself.
+    begin: Begin<'a, N, Stepping<H>>,
     /// The time of the last frame.
     t: f64,
-    eights: Vec<Eight<N, H>>,
+    eights: Vec<InLanesOf<'a, N, H>>,
     /// Those that are in no lane.
     alone: Vec<Option<Box<Alone<'a, N, H>>>>,
 }
+
+/// Eight bodies by whatever steps.
+type InLanesOf<'a, const N: usize, H> = Box<dyn Eight<N, H> + Send + 'a>;
 
 /// A body that moves by itself, with what kept it from the time of the others.
 struct Alone<'a, const N: usize, H: Handle<N> + 'a> {
@@ -79,9 +91,10 @@ struct Alone<'a, const N: usize, H: Handle<N> + 'a> {
     stop: Option<Stop>,
 }
 
-impl<'a, const N: usize, H: Handle<N> + 'a> Flows<'a, N, H>
+impl<'a, const N: usize, H: Handle<N> + Send + Sync + 'a> Flows<'a, N, H>
 where
-    H::Model: InLanes<N> + Splitting<N>,
+    H::Model: InLanes<N>,
+    PointOf<N, H>: Send,
 {
     /// Bodies from phase points at one time, by splitting of an order, 2, 4, 6 or 8, in equal steps that are not longer than `step`.
     ///
@@ -92,35 +105,95 @@ where
         (order, step): (usize, f64),
         t0: f64,
         bodies: impl IntoIterator<Item = (H, PointOf<N, H>)>,
-    ) -> Result<Self, Stop> {
+    ) -> Result<Self, Stop>
+    where
+        H::Model: Splitting<N>,
+    {
         let plan = Plan { method: Method::Splitting { order, step }, ..Plan::default() };
-        let begun = Self::begun(plan, (order, step), t0, bodies.into_iter().collect());
-        begun.map_err(|reason| Stop { reason, t: t0, steps: 0 })
+        Self::begun((plan, by_splitting), t0, bodies.into_iter().collect(), |bodies| {
+            let eight = BySplitting::new((order, step), t0, together(t0, bodies));
+            let eight = eight.ok_or(Setting::Order { given: order })?;
+            Ok(eight.map(|eight| Box::new(eight) as InLanesOf<'a, N, H>))
+        })
+    }
+
+    /// Bodies from phase points at one time, by [`Method::RungeKutta8`] to a tolerance, the relative error that is allowed in each
+    /// step, as in [`Flow::set_tolerance`](super::Flow::set_tolerance). The lengths of steps go on from frame to frame. Lanes are
+    /// full where bodies need about as many steps as each other.
+    ///
+    /// # Errors
+    /// As [`Flow::by`](super::Flow::by): a [`Stop`] with [`Reason::Setting`] for a tolerance or a time that makes no sense; with
+    /// other reasons for the first body at whose start there is no motion.
+    pub fn by_runge_kutta(
+        tolerance: f64,
+        t0: f64,
+        bodies: impl IntoIterator<Item = (H, PointOf<N, H>)>,
+    ) -> Result<Self, Stop> {
+        let plan = Plan { method: Method::RungeKutta8, tolerance, ..Plan::default() };
+        let eight = |bodies: &[(H, PointOf<N, H>)]| -> InLanesOf<'a, N, H> {
+            let is_fused = bodies.first().is_some_and(|(handle, _)| has_fused_lanes(handle.model()));
+            match FusedArithmetic::here() {
+                FusedArithmetic::InVectors if is_fused => {
+                    Box::new(ByError::new(&plan, t0, together::<N, <F64x8 as Lanes>::Fused, H>(t0, bodies)))
+                }
+                _ => Box::new(ByError::new(&plan, t0, together::<N, F64x8, H>(t0, bodies))),
+            }
+        };
+        let bodies = bodies.into_iter().collect();
+        Self::begun((plan.clone(), by_any_steps), t0, bodies, |bodies| Ok(Ok(eight(bodies))))
     }
 
     fn begun(
-        plan: Plan,
-        (order, step): (usize, f64),
+        (plan, begin): (Plan, Begin<'a, N, Stepping<H>>),
         t0: f64,
         bodies: Vec<(H, PointOf<N, H>)>,
-    ) -> Result<Self, Reason> {
-        plan.checked_method(&H::Model::DESCRIPTION)?;
-        if !t0.is_finite() {
-            return Err(Setting::Time { name: "the time of the start", given: t0 }.into());
-        }
-        plan.checked_step(t0, t0)?;
-        let mut flows =
-            Self { plan, t: t0, eights: Vec::new(), alone: bodies.iter().map(|_| None).collect() };
-        for bodies in bodies.chunks(F64x8::LANES) {
-            let eight = Eight::new((order, step), t0, bodies).ok_or(Setting::Order { given: order })?;
-            flows.eights.push(eight.map_err(|failure| flows.failed(failure))?);
-        }
-        for (number, (handle, point)) in bodies.into_iter().enumerate() {
-            flows.put(number, handle, point)?;
-        }
+        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<Result<InLanesOf<'a, N, H>, Failure>, Setting>,
+    ) -> Result<Self, Stop> {
+        let alone = bodies.iter().map(|_| None).collect();
+        let mut flows = Self { plan, begin, t: t0, eights: Vec::new(), alone };
+        flows.fill(bodies, eight).map_err(|reason| flows.stopped_by(reason))?;
         Ok(flows)
     }
 
+    fn fill(
+        &mut self,
+        bodies: Vec<(H, PointOf<N, H>)>,
+        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<Result<InLanesOf<'a, N, H>, Failure>, Setting>,
+    ) -> Result<(), Reason> {
+        self.plan.checked_method(&H::Model::DESCRIPTION)?;
+        if !self.t.is_finite() {
+            return Err(Setting::Time { name: "the time of the start", given: self.t }.into());
+        }
+        self.plan.checked_step(self.t, self.t)?;
+        for bodies in bodies.chunks(EIGHT) {
+            let eight = eight(bodies)?.map_err(|failure| self.failed(failure))?;
+            self.eights.push(eight);
+        }
+        for (number, (handle, point)) in bodies.into_iter().enumerate() {
+            self.put(number, handle, point)?;
+        }
+        Ok(())
+    }
+}
+
+/// The models of bodies, eight at most, with the constants of their trajectories; those of the last in the lanes that are left.
+fn together<const N: usize, T: Lanes, H: Handle<N>>(
+    t0: f64,
+    bodies: &[(H, PointOf<N, H>)],
+) -> Together<N, T, H>
+where
+    H::Model: InLanes<N>,
+{
+    Together::of(|lane| {
+        let (handle, point) = &bodies[lane.min(bodies.len().saturating_sub(1))];
+        (handle.clone(), handle.model().reduce(t0, point).1)
+    })
+}
+
+impl<'a, const N: usize, H: Handle<N> + 'a> Flows<'a, N, H>
+where
+    H::Model: InLanes<N>,
+{
     /// Puts a body into its lane, or aside.
     fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
         placed_at(&(self.t, point))?;
@@ -142,16 +215,16 @@ where
 
     /// A body by itself.
     fn stepped(&self, handle: H, start: (f64, PointOf<N, H>)) -> Result<Stepped<'a, N, H>, Reason> {
-        Stepped::begin(Moving { handle: Stepping(handle), begin: by_splitting }, self.plan.clone(), start)
+        Stepped::begin(Moving { handle: Stepping(handle), begin: self.begin }, self.plan.clone(), start)
     }
 
     /// Where a body is in lanes, or would be.
-    fn eight(&self, number: usize) -> Option<(&Eight<N, H>, usize)> {
-        self.eights.get(number / F64x8::LANES).map(|eight| (eight, number % F64x8::LANES))
+    fn eight(&self, number: usize) -> Option<(&InLanesOf<'a, N, H>, usize)> {
+        self.eights.get(number / EIGHT).map(|eight| (eight, number % EIGHT))
     }
 
-    fn eight_mut(&mut self, number: usize) -> Option<(&mut Eight<N, H>, usize)> {
-        self.eights.get_mut(number / F64x8::LANES).map(|eight| (eight, number % F64x8::LANES))
+    fn eight_mut(&mut self, number: usize) -> Option<(&mut InLanesOf<'a, N, H>, usize)> {
+        self.eights.get_mut(number / EIGHT).map(|eight| (eight, number % EIGHT))
     }
 
     /// Number of bodies.
@@ -246,7 +319,7 @@ where
 
 impl<'a, const N: usize, H: Handle<N> + Send + Sync + 'a> Flows<'a, N, H>
 where
-    H::Model: InLanes<N> + Splitting<N>,
+    H::Model: InLanes<N>,
     PointOf<N, H>: Send,
 {
     /// Moves all bodies on by a time, forward or backward; by none they stay.
@@ -267,89 +340,99 @@ where
     /// A [`Stop`] of settings, before anything has moved; else that of the first body that did not get there. All others are there
     /// even so: [`stopped`](Self::stopped) tells which are not.
     pub fn advance_to(&mut self, t_end: f64) -> Result<(), Stop> {
-        let count = self.step_count(t_end).map_err(|reason| self.stopped_by(reason))?;
-        if count == 0 {
+        if !self.has_way(t_end).map_err(|reason| self.stopped_by(reason))? {
             return Ok(());
         }
-        let left =
-            all_moved(&mut self.eights, t_end).map_err(|failure| self.stopped_by(self.failed(failure)))?;
+        let left = all_moved(&mut self.eights, (t_end, self.plan.max_steps));
+        let left = left.map_err(|failure| self.stopped_by(self.failed(failure)))?;
         self.t = t_end;
+        self.alone.iter_mut().flatten().for_each(|alone| alone.move_to(t_end));
         let mut begun = Ok(());
-        for (number, start) in left {
-            begun = begun.and(self.leave(number, start));
-        }
-        for alone in self.alone.iter_mut().flatten() {
-            let moved = alone.body.move_to(t_end);
-            let (t, steps) = (alone.body.t(), alone.body.statistics().steps);
-            alone.stop = moved.err().map(|reason| Stop { reason, t, steps });
+        for (place, left) in left {
+            begun = begun.and(self.leave(EIGHT * place + left.lane, left));
         }
         let first = self.stopped().next().map(|(_, stop)| *stop);
         begun.and(first.map_or(Ok(()), Err))
     }
 
     /// Lets a body go on by itself from where it left its lane.
-    fn leave(&mut self, number: usize, (t, point): Left<PointOf<N, H>>) -> Result<(), Stop> {
-        let handle = self.handle(number).cloned().ok_or(self.no_body(number));
-        let body = handle.and_then(|handle| self.stepped(handle, (t, point)));
+    fn leave(&mut self, number: usize, left: Left<H, PointOf<N, H>>) -> Result<(), Stop> {
+        let (t, reason) = (left.from.0, Reason::StepLimit { limit: self.plan.max_steps });
+        let body = self.stepped(left.handle, left.from);
         self.goes(number, Some(body.map_err(|reason| Stop { reason, t, steps: 0 })?));
+        let (t_end, limit) = (self.t, self.plan.max_steps);
+        match self.alone.get_mut(number) {
+            Some(Some(alone)) if left.is_limited => alone.stop = Some(Stop { reason, t, steps: limit }),
+            Some(Some(alone)) => alone.move_to(t_end),
+            _ => {}
+        }
         Ok(())
     }
 
-    /// Steps to a time.
-    fn step_count(&self, t_end: f64) -> Result<u64, Reason> {
+    /// There is a time to move to, and it is not the one reached.
+    fn has_way(&self, t_end: f64) -> Result<bool, Reason> {
         if !t_end.is_finite() {
             return Err(Setting::Time { name: "the time to move to", given: t_end }.into());
         }
         long_enough(self.t, t_end)?;
         self.plan.checked_step(self.t, t_end)?;
-        let (step, limit) = (self.plan.method.step().unwrap_or(f64::NAN), self.plan.max_steps);
-        let count = step_count(self.t, t_end, step).unwrap_or(u64::MAX);
-        if count <= limit { Ok(count) } else { Err(Reason::StepLimit { limit }) }
+        let limit = self.plan.max_steps;
+        let count = self.plan.method.step().and_then(|step| step_count(self.t, t_end, step));
+        match count.is_none_or(|count| count <= limit) {
+            true => Ok(t_end != self.t),
+            false => Err(Reason::StepLimit { limit }),
+        }
     }
 }
 
-/// Bodies that left their lanes, by their numbers.
-type AllLeft<const N: usize, H> = Vec<(usize, Left<PointOf<N, H>>)>;
+impl<'a, const N: usize, H: Handle<N> + 'a> Alone<'a, N, H> {
+    fn move_to(&mut self, t_end: f64) {
+        let moved = self.body.move_to(t_end);
+        let (t, steps) = (self.body.t(), self.body.statistics().steps);
+        self.stop = moved.err().map(|reason| Stop { reason, t, steps });
+    }
+}
 
-/// Moves bodies in lanes to a time, but for those that cannot go on there; `place` is the number of the first eight.
-fn moved<const N: usize, H: Handle<N>>(
-    (place, eights): (usize, &mut [Eight<N, H>]),
-    t_end: f64,
-) -> Result<AllLeft<N, H>, Failure>
-where
-    H::Model: InLanes<N> + Splitting<N>,
-{
-    let mut left = Vec::new();
-    (place..).zip(eights).try_for_each(|(place, eight)| eight.move_to(t_end, place, &mut left))?;
-    Ok(left)
+/// Bodies that left their lanes, each with the number of its eight.
+type AllLeft<const N: usize, H> = Vec<(usize, Left<H, PointOf<N, H>>)>;
+
+/// Moves bodies in lanes to a time, by at most so many steps, but for those that cannot go on there; `place` is the number of the
+/// first eight.
+fn moved<'a, const N: usize, H: Handle<N>>(
+    (place, eights): (usize, &mut [InLanesOf<'a, N, H>]),
+    (t_end, limit): (f64, u64),
+) -> Result<AllLeft<N, H>, Failure> {
+    let mut all = Vec::new();
+    for (place, eight) in (place..).zip(eights) {
+        eight.move_to(t_end, limit, &mut |left| all.push((place, left)))?;
+    }
+    Ok(all)
 }
 
 /// The same of all of them.
 #[cfg(not(feature = "parallel"))]
-fn all_moved<const N: usize, H: Handle<N>>(
-    eights: &mut [Eight<N, H>],
-    t_end: f64,
-) -> Result<AllLeft<N, H>, Failure>
-where
-    H::Model: InLanes<N> + Splitting<N>,
-{
-    moved((0, eights), t_end)
+fn all_moved<'a, const N: usize, H: Handle<N>>(
+    eights: &mut [InLanesOf<'a, N, H>],
+    to: (f64, u64),
+) -> Result<AllLeft<N, H>, Failure> {
+    moved((0, eights), to)
 }
 
 /// The same of all of them on the threads of the pool.
 #[cfg(feature = "parallel")]
-fn all_moved<const N: usize, H>(eights: &mut [Eight<N, H>], t_end: f64) -> Result<AllLeft<N, H>, Failure>
+fn all_moved<'a, const N: usize, H: Handle<N> + Send>(
+    eights: &mut [InLanesOf<'a, N, H>],
+    to: (f64, u64),
+) -> Result<AllLeft<N, H>, Failure>
 where
-    H: Handle<N> + Send + Sync,
-    H::Model: InLanes<N> + Splitting<N>,
     PointOf<N, H>: Send,
 {
     use rayon::prelude::*;
     if eights.len() <= AT_LEAST {
-        return moved((0, eights), t_end);
+        return moved((0, eights), to);
     }
     let parts = eights.par_chunks_mut(AT_LEAST).enumerate();
-    let moved = parts.map(|(part, eights)| moved((part * AT_LEAST, eights), t_end));
+    let moved = parts.map(|(part, eights)| moved((part * AT_LEAST, eights), to));
     let left: Vec<AllLeft<N, H>> = moved.collect::<Result<_, _>>()?;
     Ok(left.into_iter().flatten().collect())
 }
@@ -360,7 +443,7 @@ const AT_LEAST: usize = 64;
 
 impl<'a, const N: usize, H: Handle<N> + 'a> fmt::Debug for Flows<'a, N, H>
 where
-    H::Model: InLanes<N> + Splitting<N>,
+    H::Model: InLanes<N>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Flows")

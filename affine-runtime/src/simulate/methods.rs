@@ -53,6 +53,15 @@ pub(super) fn by_splitting<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, 
     by_pieces((model, course), |model: H| M::splitting(model), (order, step), &mut choice.evaluations)
 }
 
+/// Begins to integrate `model` by Runge-Kutta steps of order 8, which is what was asked for.
+pub(super) fn by_any_steps<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
+    model: &H,
+    course: &Course<'_, M::Point<f64>>,
+    choice: &mut Choice,
+) -> Result<Boxed<'a, N, H>, Reason> {
+    by_any_equations::<N, M, H, false>((model, course), Method::RungeKutta8, &mut choice.evaluations)
+}
+
 /// Begins to integrate `model`. What depends on the model alone, and on whether the program names methods, is decided by
 /// constants: only the integrators that can be taken are compiled.
 fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, const NAMED: bool>(

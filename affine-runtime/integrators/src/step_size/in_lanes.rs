@@ -11,7 +11,9 @@ pub(crate) struct Clocks<T> {
     pub(crate) t: T,
     /// End of the step that is tried.
     pub(crate) end: T,
-    /// Accepted steps.
+    /// Length of the next step; 0 in a lane in which nothing moves.
+    length: T,
+    /// Accepted steps on the way to the end.
     steps: T,
     previous: T,
     /// 1 after a rejected step, or 0.
@@ -30,6 +32,8 @@ pub(crate) mod fate {
     pub(crate) const ARRIVED: f64 = 1.0;
     /// It cannot go on.
     pub(crate) const STUCK: f64 = 2.0;
+    /// It has taken as many steps as it may.
+    pub(crate) const LIMITED: f64 = 3.0;
 }
 
 impl<T: Lanes> Clocks<T> {
@@ -37,13 +41,25 @@ impl<T: Lanes> Clocks<T> {
     pub(crate) fn new(fresh: Controller, t_end: f64, max_steps: u64) -> Self {
         let (zero, t) = (T::zero(), T::constant(t_end, 0.0));
         let max_steps = max_steps as f64;
-        Self { t, end: t, steps: zero, previous: zero, rejected: zero, fresh, t_end, max_steps }
+        Self { t, end: t, length: zero, steps: zero, previous: zero, rejected: zero, fresh, t_end, max_steps }
+    }
+
+    /// Goes on to another end, with the lengths that steps have; what rests stays at rest.
+    pub(crate) fn aim(&mut self, t_end: f64, max_steps: u64) {
+        (self.t_end, self.max_steps) = (t_end, max_steps as f64);
+        for lane in 0..T::LANES {
+            let (t, length) = (self.t.lane(lane), self.length.lane(lane));
+            self.t.set_lane(lane, if length == 0.0 { t_end } else { t });
+            self.end.set_lane(lane, if length == 0.0 { t_end } else { next_time(t, length, t_end) });
+            self.steps.set_lane(lane, 0.0);
+        }
     }
 
     /// Sets a lane to the start of a body.
     pub(crate) fn start(&mut self, lane: usize, t: f64, length: f64) {
         self.t.set_lane(lane, t);
         self.end.set_lane(lane, next_time(t, length, self.t_end));
+        self.length.set_lane(lane, length);
         self.previous.set_lane(lane, self.fresh.previous);
         self.rejected.set_lane(lane, 0.0);
         self.steps.set_lane(lane, 0.0);
@@ -56,7 +72,7 @@ impl<T: Lanes> Clocks<T> {
 
     /// Turns to the next steps: where errors are at most 1 from the ends of those that were tried, elsewhere, also where an
     /// error is NaN, from where these began. What becomes of the lanes; those that `unsound` is not 0 for cannot go on from
-    /// the end of an accepted step.
+    /// the end of an accepted step. A lane at the end stays as it is.
     #[inline(always)]
     pub(crate) fn turn(&mut self, error: T, unsound: T) -> T {
         let Self { fresh, t_end, max_steps, .. } = *self;
@@ -64,25 +80,27 @@ impl<T: Lanes> Clocks<T> {
         let mut fates = T::zero();
         for lane in 0..T::LANES {
             let (t, end, error) = (self.t.lane(lane), self.end.lane(lane), error.lane(lane));
-            let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane) != 0.0);
+            let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane));
             let accepted = error <= 1.0;
-            let mut controller = Controller { previous, rejected, ..fresh };
+            let mut controller = Controller { previous, rejected: rejected != 0.0, ..fresh };
             let length = (end - t).abs() * controller.factor(accepted, error);
             let steps = self.steps.lane(lane) + if accepted { 1.0 } else { 0.0 };
             let has_arrived = if end == t_end { fate::ARRIVED } else { fate::UNDER_WAY };
-            let goes_on = if steps >= max_steps && end != t_end { fate::STUCK } else { has_arrived };
+            let goes_on = if steps >= max_steps && end != t_end { fate::LIMITED } else { has_arrived };
             let after = if unsound.lane(lane) == 0.0 { goes_on } else { fate::STUCK };
             let again = if length <= shortest(t, t_end) { fate::STUCK } else { fate::UNDER_WAY };
             let fate = if accepted { after } else { again };
             // What is lost in the rounding of times is no step.
             let fate = if end == t { fate::STUCK } else { fate };
-            // A lane at rest has no fate.
-            fates.set_lane(lane, if t == t_end { fate::UNDER_WAY } else { fate });
+            let is_at_end = t == t_end;
+            fates.set_lane(lane, if is_at_end { fate::UNDER_WAY } else { fate });
             let t = if accepted { end } else { t };
             next.t.set_lane(lane, t);
             next.end.set_lane(lane, next_time(t, length, t_end));
-            next.previous.set_lane(lane, controller.previous);
-            next.rejected.set_lane(lane, if accepted { 0.0 } else { 1.0 });
+            let kept = |before: f64, after: f64| if is_at_end { before } else { after };
+            next.length.set_lane(lane, kept(self.length.lane(lane), length));
+            next.previous.set_lane(lane, kept(previous, controller.previous));
+            next.rejected.set_lane(lane, kept(rejected, if accepted { 0.0 } else { 1.0 }));
             next.steps.set_lane(lane, steps);
         }
         *self = next;

@@ -1,7 +1,7 @@
 //! Bodies of an ensemble one after the other through the same lanes.
 
 use super::asked::{Asked, Member, Start};
-use super::bodies::{Bodies, begun, has_fused_lanes, moving};
+use super::bodies::{Watched, begun};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
@@ -9,6 +9,7 @@ use crate::integrate::FusedArithmetic;
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
+use crate::simulate::in_lanes::{EIGHT, has_fused_lanes, moving};
 use crate::simulate::layout::is_looked_after;
 use crate::simulate::method::Method;
 use crate::simulate::motion::PointOf;
@@ -61,31 +62,28 @@ where
         let together: Vec<_> =
             together.map(|(body, start)| (body, start.handle.model(), &start.point)).collect();
         let course = (self.plan, self.t_end);
-        let mut waiting =
-            together.chunks(T::LANES).flat_map(|points| begun::<N, T, H::Model>(course, points));
+        let mut waiting = together.chunks(EIGHT).flat_map(|points| begun::<N, T, H::Model>(course, points));
         let Some(first) = waiting.next() else { return };
         let (model, start) = (&models[first.body], &starts[first.body].point);
         let energy = Energy::at(model, self.plan.t0, start);
         let trajectory = empty_trajectory(model, self.plan, start, &energy);
-        let mut trajectories = vec![trajectory; T::LANES];
+        let mut trajectories = vec![trajectory; EIGHT];
         let record =
             |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
         let asked = (self.within_steps, self.has_events);
-        let mut bodies = Bodies::<N, T, H::Model>::filled(course, asked, first, &mut waiting);
-        let mut recordings: Vec<_> = trajectories
-            .iter_mut()
-            .enumerate()
-            .map(|(lane, trajectory)| bodies.body(lane).map(|body| (body, record(body, trajectory))))
-            .collect();
-        let mut fates = vec![Next::Step; T::LANES];
-        while bodies.are_moving() {
+        let (mut watched, numbers) = Watched::<N, T, H::Model>::filled(course, asked, first, &mut waiting);
+        let recordings = trajectories.iter_mut().zip(numbers);
+        let mut recordings: Vec<_> =
+            recordings.map(|(trajectory, body)| body.map(|body| (body, record(body, trajectory)))).collect();
+        let mut fates = [Next::Step; EIGHT];
+        while recordings.iter().any(Option::is_some) {
             fates.fill(Next::Step);
-            for (lane, fate) in bodies.advance() {
+            for (lane, fate) in watched.advance() {
                 fates[lane] = if fate == Fate::Arrived { Next::End } else { Next::Alone };
             }
-            for lane in 0..T::LANES {
+            for lane in 0..EIGHT {
                 let Some((_, recording)) = &mut recordings[lane] else { continue };
-                let next = self.next(&mut bodies, lane, fates[lane], recording);
+                let next = self.next(&mut watched, lane, fates[lane], recording);
                 if next == Next::Step {
                     continue;
                 }
@@ -97,10 +95,10 @@ where
                 }
                 match waiting.next() {
                     Some(next) => {
-                        bodies.put(lane, &next);
+                        watched.put(lane, &next);
                         recordings[lane] = Some((next.body, record(next.body, trajectory)));
                     }
-                    None => bodies.rest(lane),
+                    None => watched.bodies.rest(lane),
                 }
             }
         }
@@ -109,26 +107,24 @@ where
     /// How the body in a lane goes on after an attempt of a step.
     fn next<T: Lanes>(
         &self,
-        bodies: &mut Bodies<'_, N, T, H::Model>,
+        watched: &mut Watched<'_, N, T, H::Model>,
         lane: usize,
         fate: Next,
         recording: &mut Recording<'_, '_, N, PointOf<N, H>, A>,
     ) -> Next {
-        if fate == Next::Alone {
-            return fate;
-        }
-        if bodies.has_stepped(lane) && !bodies.keeps_orientation(lane) {
+        let has_stepped = watched.bodies.has_stepped(lane);
+        if fate == Next::Alone || (has_stepped && !watched.bodies.keeps_orientation(lane)) {
             return Next::Alone;
         }
-        if self.within_steps && bodies.has_stepped(lane) {
-            let t = bodies.t(lane);
-            let events = bodies.ends(lane, |ends, turning| recording.look_at(ends, turning));
-            let next = recording.step(t, events, &mut bodies.within(lane), self.add);
+        let t = watched.bodies.t(lane);
+        if self.within_steps && has_stepped {
+            let events = watched.ends(lane, |ends, turning| recording.look_at(ends, turning));
+            let next = recording.step(t, events, &mut watched.bodies.within(lane), self.add);
             if next != Next::Step {
                 return next;
             }
         }
-        match fate == Next::End && !recording.arrive(bodies.t(lane), bodies.reached(lane)) {
+        match fate == Next::End && !recording.arrive(t, watched.bodies.reached(lane)) {
             true => Next::Alone,
             false => fate,
         }

@@ -9,27 +9,10 @@ use crate::frames::Matrix;
 use crate::inner::{PiecesInLanes, Sum, of_lane, set_lane};
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
+use crate::simulate::in_lanes::{EIGHT, Reduced, Together};
 use crate::simulate::layout::placement_in;
 use crate::simulate::orientation::{Moment, passes_through_zero};
 use crate::simulate::point::is_clearly_positive;
-
-/// Lanes.
-pub(super) const EIGHT: usize = F64x8::LANES;
-
-/// Reduced states of the bodies.
-pub(super) type Reduced<const N: usize, H, T> = <<H as Handle<N>>::Model as Model<N>>::Reduced<T>;
-/// Constants of their trajectories.
-pub(super) type Constants<const N: usize, H, T> = <<H as Handle<N>>::Model as Model<N>>::Constants<T>;
-
-/// The pieces of the motions of eight bodies.
-pub(super) struct Moved<const N: usize, H: Handle<N>>
-where
-    H::Model: Model<N>,
-{
-    pub(super) handles: [H; EIGHT],
-    pub(super) of_lanes: [Constants<N, H, f64>; EIGHT],
-    pub(super) constants: Constants<N, H, F64x8>,
-}
 
 /// The placement of a state, up to a factor of positive determinant, or its rate.
 #[inline(always)]
@@ -61,6 +44,11 @@ pub(super) fn stands<const N: usize, H: Handle<N>>(state: &Reduced<N, H, f64>) -
     (zero == 0.0) & is_clearly_positive(&placement::<N, H>(state))
 }
 
+/// The pieces of the motions of eight bodies.
+pub(super) struct Moved<const N: usize, H: Handle<N>>(pub(super) Together<N, F64x8, H>)
+where
+    H::Model: InLanes<N>;
+
 impl<const N: usize, H: Handle<N>> Moved<N, H>
 where
     H::Model: InLanes<N> + Splitting<N>,
@@ -69,11 +57,11 @@ where
     #[inline(always)]
     fn flow_in_lanes(&self, piece: usize, (t, h): (f64, f64), state: &mut Sum<Reduced<N, H, F64x8>>) {
         // A copy, which no state can be taken for: few lanes are not worth a check of that.
-        let constants = self.constants;
+        let constants = self.0.constants;
         for lane in 0..EIGHT {
             let constants = H::Model::constants_of_lane(&constants, lane);
             let (mut value, mut carry) = (of_lane(&state.value, lane), of_lane(&state.carry, lane));
-            self.handles[lane].model().flow(piece, t, h, &constants, &mut value, &mut carry);
+            self.0.handles[lane].model().flow(piece, t, h, &constants, &mut value, &mut carry);
             set_lane(&mut state.value, lane, &value);
             set_lane(&mut state.carry, lane, &carry);
         }
@@ -81,8 +69,8 @@ where
 
     #[inline(always)]
     fn moment(&self, lane: usize, t: f64, state: &Reduced<N, H, f64>) -> Moment<N> {
-        let constants = H::Model::constants_of_lane(&self.constants, lane);
-        let rates = self.handles[lane].model().reduced_equations(t, &constants, state);
+        let constants = H::Model::constants_of_lane(&self.0.constants, lane);
+        let rates = self.0.handles[lane].model().reduced_equations(t, &constants, state);
         Moment::at(t, placement::<N, H>(state), placement::<N, H>(&rates))
     }
 }

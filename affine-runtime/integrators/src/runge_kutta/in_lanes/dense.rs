@@ -27,6 +27,21 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         self.before.as_ref().is_some_and(|before| before.t.lane(lane) != self.t(lane))
     }
 
+    /// State reached in a lane.
+    pub fn state<R: StateVector<f64>>(&self, lane: usize) -> R {
+        let mut state = R::zeros();
+        copied(&self.y, lane, &mut state);
+        state
+    }
+
+    /// Time and state where the last step in a lane began, of those that are kept; `None` where there was no step.
+    pub fn begin<R: StateVector<f64>>(&self, lane: usize) -> Option<(f64, R)> {
+        let before = self.before.as_ref().filter(|_| self.has_stepped(lane))?;
+        let mut state = R::zeros();
+        copied(&before.y, lane, &mut state);
+        Some((before.t.lane(lane), state))
+    }
+
     /// The state in a lane at a time within its last step, which was [kept](Self::keep): by the dense output of
     /// [`RungeKutta8`](super::super::RungeKutta8), operation by operation. `None` where there was no step. The first time that is
     /// asked for costs three evaluations, which serve all lanes until they step again.
@@ -40,11 +55,10 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         }
         let Before { t: begin, y, coefficients, .. } = self.before.as_ref()?;
         let (begin, end) = (begin.lane(lane), self.t(lane));
-        let mut state = R::zeros();
         if t == end {
-            copied(&self.y, lane, &mut state);
-            return Some(state);
+            return Some(self.state(lane));
         }
+        let mut state = R::zeros();
         let theta = (t - begin) / (end - begin);
         let mut of_body = R::zeros();
         for (k, of_lanes) in coefficients.iter().enumerate().rev() {
