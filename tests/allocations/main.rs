@@ -99,20 +99,26 @@ fn nothing_is_allocated_for_many_bodies_after_the_construction() -> affine_runti
     let start =
         block(9.81)?.at_velocity(Vector::zeros(), Matrix::identity(), Vector::<3>::zeros(), spinning)?;
     let (falling, other) = (Owned(block(9.81)?), Owned(block(3.0)?));
-    let (made, flows) = allocated(|| Flows::by_splitting((4, 0.005), 0.0, [(falling, start); 19]));
-    assert!(made > 0, "the allocator counts");
-    let mut flows = flows?;
-    let (frames, done) = allocated(|| -> affine_runtime::Result<()> {
-        for frame in 1..=100 {
-            flows.advance_to(f64::from(frame) / 60.0)?;
-            assert!(flows.points().count() == 19 && flows.stopped().count() == 0);
-            flows.set_model(frame as usize % 19, other)?;
-            flows.set_point(frame as usize % 7, start)?;
-        }
-        let _ = flows.advance(f64::NAN);
-        Ok(())
-    });
-    done?;
-    assert_eq!(frames, 0);
+    for is_splitting in [true, false] {
+        let bodies = [(falling, start); 19];
+        let (made, flows) = allocated(|| match is_splitting {
+            true => Flows::by_splitting((4, 0.005), 0.0, bodies),
+            false => Flows::by_runge_kutta(1e-9, 0.0, bodies),
+        });
+        assert!(made > 0, "the allocator counts");
+        let mut flows = flows?;
+        let (frames, done) = allocated(|| -> affine_runtime::Result<()> {
+            for frame in 1..=100 {
+                flows.advance_to(f64::from(frame) / 60.0)?;
+                assert!(flows.points().count() == 19 && flows.stopped().count() == 0);
+                flows.set_model(frame as usize % 19, other)?;
+                flows.set_point(frame as usize % 7, start)?;
+            }
+            let _ = flows.advance(f64::NAN);
+            Ok(())
+        });
+        done?;
+        assert_eq!(frames, 0, "{is_splitting}");
+    }
     Ok(())
 }

@@ -39,5 +39,8 @@ fn main() -> affine_runtime::Result<()> {
     let mut cubes = Flows::by_splitting((2, 1e-3), 0.0, [(&Cube, start); 8])?;
     cubes.advance(1.0)?;
     println!("{:?}", cubes.point(7));
+    let mut cubes = Flows::by_runge_kutta(1e-9, 0.0, [(&Cube, start); 8])?;
+    cubes.advance(1.0)?;
+    println!("{:?}", cubes.point(7));
     Ok(())
 }

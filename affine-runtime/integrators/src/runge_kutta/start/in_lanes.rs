@@ -1,5 +1,7 @@
 //! What several bodies begin with: lane by lane the numbers of [`Start::of`], operation by operation.
 
+use core::marker::PhantomData;
+
 use pulp::{Simd, WithSimd};
 
 use super::Start;
@@ -20,7 +22,8 @@ pub fn starts_in_lanes<T: Lanes, S: StateVector<T>, R: StateVector<f64>>(
     t_end: f64,
     tolerance: f64,
 ) -> impl Iterator<Item = Option<Start<R>>> {
-    let beginning = Beginning { f, at_start: T::constant(t0, 0.0), t0, y0, t_end, tolerance };
+    let at_start = T::constant(t0, 0.0);
+    let beginning = Beginning { f, at_start, t0, y0, t_end, tolerance, of_one: PhantomData::<R> };
     let begun = in_lanes::<T, _>(beginning, f.are_a_last_resort());
     (0..T::LANES).map(move |lane| {
         let mut slope = R::zeros();
@@ -40,7 +43,7 @@ struct Begun<T, S> {
     length: T,
 }
 
-struct Beginning<'a, T, S, F> {
+struct Beginning<'a, T, S, F, R> {
     f: &'a F,
     /// The time at the start, in every lane.
     at_start: T,
@@ -48,9 +51,13 @@ struct Beginning<'a, T, S, F> {
     y0: &'a S,
     t_end: f64,
     tolerance: f64,
+    /// The state of one body.
+    of_one: PhantomData<R>,
 }
 
-impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Beginning<'_, T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>, R: StateVector<f64>> WithSimd
+    for Beginning<'_, T, S, F, R>
+{
     type Output = Begun<T, S>;
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) -> Begun<T, S> {
@@ -62,7 +69,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> WithSimd for Beginning<'_,
     }
 }
 
-impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
+impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>, R: StateVector<f64>> Beginning<'_, T, S, F, R> {
     /// Lengths of the first steps: the scalar `first_step`; NaN where rates of rates are not finite.
     #[inline(always)]
     fn first_step<V: Simd>(&self, simd: V, norm: &NormInLanes<T>, slope: &S) -> T {
@@ -71,9 +78,13 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Beginning<'_, T, S, F> {
         let (mut trial, mut signed) = (T::zero(), T::zero());
         for lane in 0..T::LANES {
             let at_rest = || {
-                let [y, slope] =
-                    [y, slope].map(|v| v.as_ref().iter().map(|v| v.lane(lane)).collect::<Vec<_>>());
-                norm.lane(lane).rate_from_rest(&y, &slope)
+                let [y, slope] = [y, slope].map(|lanes| {
+                    let mut of_one = R::zeros();
+                    let numbers = of_one.as_mut().iter_mut().zip(lanes.as_ref());
+                    numbers.for_each(|(number, lanes)| *number = lanes.lane(lane));
+                    of_one
+                });
+                norm.lane(lane).rate_from_rest(y.as_ref(), slope.as_ref())
             };
             let length = length_of_trial(first.lane(lane), span, at_rest);
             trial.set_lane(lane, length);
