@@ -139,10 +139,10 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
         "t" => Some(arena.symbol(Quantity::Time)),
         "D" => power(arena, 1),
         "det" => power(arena, n),
-        "I1" => Some(Base::Trace.symbol(arena)),
+        "I1" => Some(Base::Trace(1).symbol(arena)),
         // e_2 = ((tr G)^2 - tr G^2)/2
         "I2" if n == 3 => {
-            let (first, second) = (Base::Trace.symbol(arena), Base::TraceOfSquare.symbol(arena));
+            let (first, second) = (Base::Trace(1).symbol(arena), Base::Trace(2).symbol(arena));
             let square = arena.mul(first, first);
             let half = Rational::HALF;
             Some(arena.linear(&[(square, half.clone()), (second, -&half)]))

@@ -154,9 +154,7 @@ impl Tape<'_> {
         let (base, power) = self.nodes[factor].power;
         match (&self.nodes[base].made, power) {
             (Made::Named(MatrixName::Placement), _) => None,
-            (Made::Named(_), 1) => Some(Base::Trace),
-            (Made::Named(_), 2) => Some(Base::TraceOfSquare),
-            (Made::Named(_), 3) => Some(Base::TraceOfCube),
+            (Made::Named(_), 1..=3) => Some(Base::Trace(power as usize)),
             _ => None,
         }
     }
