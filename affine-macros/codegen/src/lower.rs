@@ -9,7 +9,9 @@ mod momentum_side;
 mod potential;
 mod traces;
 
-use crate::algebra::{Arena, Expr, Matrix, Rational};
+use crate::algebra::arena::Node;
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Function, Matrix, Rational};
 use crate::mechanics::custom::{By, Class, Custom, On, Role};
 use crate::mechanics::dissipation::Dissipation;
 use crate::mechanics::forces::Forces;
@@ -98,11 +100,8 @@ fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient
         Value::Scalar(e) => Coefficient::Scalar(expression(arena, n, e)?),
         Value::Diagonal(entries) => {
             let zero = arena.constant(Rational::ZERO);
-            let mut rows = vec![vec![zero; entries.len()]; entries.len()];
-            for (k, e) in entries.iter().enumerate() {
-                rows[k][k] = expression(arena, n, e)?;
-            }
-            Coefficient::Matrix(Matrix(rows))
+            let entries = entries.iter().map(|e| expression(arena, n, e)).collect::<Option<Vec<Expr>>>()?;
+            Coefficient::Matrix(Matrix(table(entries.len(), |i, j| if i == j { entries[i] } else { zero })))
         }
         Value::Matrix(rows) => Coefficient::Matrix(Matrix(
             rows.iter()
@@ -115,48 +114,54 @@ fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient
 /// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero) and for the
 /// forms that only potentials have.
 pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
-    if let Some(value) = constant(e, n) {
-        return Some(arena.constant(value));
-    }
-    let mut of = |operand: &Expression| expression(arena, n, operand);
     match &e.kind {
-        ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
-        ExpressionKind::Symbol(name) => Some(arena.symbol(Symbol::Field(name.to_string()))),
+        ExpressionKind::Symbol(name) if name != "n" => Some(arena.symbol(Symbol::Field(name.to_string()))),
         // One symbol for both triangles: `prepare()` refuses a field that is not symmetric.
         ExpressionKind::FieldEntry(field, row, column) => {
             Some(arena.symbol(Symbol::Entry(field.to_string(), *row.min(column), *row.max(column))))
         }
-        ExpressionKind::Negate(a) => {
-            let a = of(a)?;
-            Some(arena.neg(a))
-        }
-        ExpressionKind::Binary(Operator::Power, a, exponent) => {
-            let a = of(a)?;
-            arena.pow(a, i32::try_from(constant(exponent, n)?.to_i64()?).ok()?)
-        }
-        ExpressionKind::Binary(operator, a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            combined(arena, *operator, a, b)
-        }
-        ExpressionKind::Call(..)
-        | ExpressionKind::Trace(_)
-        | ExpressionKind::PolynomialTrace(_)
-        | ExpressionKind::Matrix(_)
-        | ExpressionKind::InverseTrace(_)
-        | ExpressionKind::Entry(..)
-        | ExpressionKind::Component(_)
-        | ExpressionKind::Norm
-        | ExpressionKind::Pairs(_) => None,
+        _ => arithmetic(arena, n, e, &|arena, operand| expression(arena, n, operand)),
     }
 }
 
-/// What an operator makes of two values; nothing of a power, whose exponent is read as a number.
-fn combined(arena: &mut Arena, operator: Operator, a: Expr, b: Expr) -> Option<Expr> {
-    match operator {
-        Operator::Add => Some(arena.add(a, b)),
-        Operator::Subtract => Some(arena.sub(a, b)),
-        Operator::Multiply => Some(arena.mul(a, b)),
-        Operator::Divide => arena.div(a, b),
-        Operator::Power => None,
+/// The value of an expression without fields, or of what an operator makes of others, by their values; `None` of all else.
+fn arithmetic(
+    arena: &mut Arena,
+    n: usize,
+    e: &Expression,
+    of: &dyn Fn(&mut Arena, &Expression) -> Option<Expr>,
+) -> Option<Expr> {
+    if let Some(value) = constant(e, n) {
+        return Some(arena.constant(value));
+    }
+    match &e.kind {
+        ExpressionKind::Negate(a) => {
+            let a = of(arena, a)?;
+            Some(arena.neg(a))
+        }
+        ExpressionKind::Binary(Operator::Power, a, exponent) => {
+            let a = of(arena, a)?;
+            let exponent = constant(exponent, n)?;
+            match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
+                (Some(k), _) => arena.pow(a, k),
+                // exp(u)^k = exp(k u): of det, D, I_n and stretches, which are positive.
+                (None, &Node::Function(Function::Exp, logarithm)) => {
+                    let logarithm = arena.scale(logarithm, &exponent);
+                    Some(arena.apply(Function::Exp, logarithm))
+                }
+                (None, _) => None,
+            }
+        }
+        ExpressionKind::Binary(operator, a, b) => {
+            let (a, b) = (of(arena, a)?, of(arena, b)?);
+            match operator {
+                Operator::Add => Some(arena.add(a, b)),
+                Operator::Subtract => Some(arena.sub(a, b)),
+                Operator::Multiply => Some(arena.mul(a, b)),
+                Operator::Divide => arena.div(a, b),
+                Operator::Power => None,
+            }
+        }
+        _ => None,
     }
 }

@@ -66,6 +66,7 @@ fn whole(
     language: Language<'_>,
     found: &mut Diagnostics,
 ) -> Result<Expression, Reported> {
-    let at = entries::extent(&tokens).unwrap_or_else(|| proc_macro2::Span::call_site().into());
-    expression_parser::parse(tokens.into_iter().collect(), at, language, found)
+    let tokens: Vec<_> = tokens.into_iter().collect();
+    let at = entries::region(&tokens).unwrap_or_else(|| proc_macro2::Span::call_site().into());
+    expression_parser::parse(tokens, at, language, found)
 }

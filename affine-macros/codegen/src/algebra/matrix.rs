@@ -14,7 +14,13 @@ impl Matrix {
     /// The matrix of the components `11`, `12`, ... of a symbol.
     pub fn symbols(arena: &mut Arena, of: impl Into<Symbol>, n: usize) -> Self {
         let of = of.into();
-        Self((1..=n).map(|i| (1..=n).map(|j| arena.symbol(of.at([i, j]))).collect()).collect())
+        Self(table(n, |i, j| arena.symbol(of.at([i + 1, j + 1]))))
+    }
+
+    /// The symmetric matrix of such components, of two that mirror each other the one above the diagonal.
+    pub fn symmetric(arena: &mut Arena, of: impl Into<Symbol>, n: usize) -> Self {
+        let of = of.into();
+        Self(table(n, |i, j| arena.symbol(of.at([i.min(j) + 1, i.max(j) + 1]))))
     }
 
     /// Its entries, which are atoms, as polynomials.

@@ -99,6 +99,16 @@ pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| combined(&a[i][j], &b[i][j], &Rational::ONE))
 }
 
+/// Adds `factor m`.
+pub fn add_multiple<R: Ring>(sum: &mut Square<R>, factor: &R, m: &Square<R>) {
+    pairs(m.len()).for_each(|(i, j)| sum[i][j].plus_product(factor, &m[i][j], &Rational::ONE));
+}
+
+/// Adds `factor 1`.
+pub fn add_scalar<R: Ring>(sum: &mut Square<R>, factor: &R) {
+    (0..sum.len()).for_each(|i| sum[i][i].plus(factor, &Rational::ONE));
+}
+
 /// `a + weight b`.
 fn combined<R: Ring>(a: &R, b: &R, weight: &Rational) -> R {
     let mut value = a.clone();
@@ -177,7 +187,7 @@ pub fn difference<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
 }
 
 /// The transpose.
-pub fn transpose<R: Ring>(a: &Square<R>) -> Square<R> {
+pub fn transpose<R: Clone>(a: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| a[j][i].clone())
 }
 

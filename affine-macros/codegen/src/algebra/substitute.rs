@@ -70,6 +70,11 @@ impl Arena {
     }
 }
 
+/// The value that a list has for an expression.
+pub fn listed<T: Clone>(list: &[(Expr, T)]) -> impl Fn(Expr) -> Option<T> {
+    |wanted| list.iter().find(|(known, _)| *known == wanted).map(|(_, value)| value.clone())
+}
+
 /// A sign that an expression has everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sign {

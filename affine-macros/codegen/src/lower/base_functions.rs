@@ -1,14 +1,13 @@
 //! An expression of a potential in base functions of the placement, the time and the fields.
 
-use super::combined;
+use super::arithmetic;
 use super::components;
-use super::constant::constant;
 use super::traces::{self, entry};
 use crate::algebra::arena::Node;
 use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, Operator, numbered};
+use crate::spec::{Expression, ExpressionKind, numbered};
 use crate::symbol::{Aspect, Quantity, Symbol};
 
 /// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
@@ -30,47 +29,18 @@ pub(super) struct Reading<'a> {
 }
 
 pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
-    if let Some(value) = constant(e, n) {
-        return Some(arena.constant(value));
-    }
     let of = |arena: &mut Arena, operand: &Expression| value(arena, n, operand, reading);
     let component = |arena: &mut Arena, base: Base| {
         if reading.given { components::symbol(arena, base) } else { base.symbol(arena) }
     };
     match &e.kind {
-        ExpressionKind::Number(value) => Some(arena.constant(value.clone())),
-        // Of a matrix a potential could only take entries, and those of fields have no notation.
-        ExpressionKind::FieldEntry(..) => None,
         ExpressionKind::Symbol(name) if name == "d" => reading.difference,
-        ExpressionKind::Symbol(name) => symbol(arena, n, &name.to_string()),
-        ExpressionKind::Negate(a) => {
-            let a = of(arena, a)?;
-            Some(arena.neg(a))
-        }
-        ExpressionKind::Binary(Operator::Power, a, exponent) => {
-            let a = of(arena, a)?;
-            let exponent = constant(exponent, n)?;
-            match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
-                (Some(k), _) => arena.pow(a, k),
-                // exp(u)^k = exp(k u): of det, D, I_n and stretches, which are positive.
-                (None, &Node::Function(Function::Exp, logarithm)) => {
-                    let logarithm = arena.scale(logarithm, &exponent);
-                    Some(arena.apply(Function::Exp, logarithm))
-                }
-                (None, _) => None,
-            }
-        }
-        ExpressionKind::Binary(operator, a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
-            combined(arena, *operator, a, b)
-        }
+        ExpressionKind::Symbol(name) if name != "n" => symbol(arena, n, &name.to_string()),
         ExpressionKind::Call(function, a) => {
             let a = of(arena, a)?;
             Some(applied(arena, *function, a))
         }
         ExpressionKind::Trace(_) | ExpressionKind::PolynomialTrace(_) => trace(arena, n, e, reading),
-        // Only within traces.
-        ExpressionKind::Matrix(_) => None,
         ExpressionKind::InverseTrace(_) => {
             let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
             arena.div(above?, below?)
@@ -80,23 +50,21 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
         }
         ExpressionKind::Component(index) => Some(component(arena, Base::Position(index.checked_sub(1)?))),
         ExpressionKind::Norm => {
-            let mut squares = Vec::new();
-            for i in 0..n {
-                let x = Base::Position(i).symbol(arena);
-                squares.push((arena.mul(x, x), Rational::ONE));
-            }
+            let x = arena.components(Quantity::Position, n);
+            let squares: Vec<_> = x.into_iter().map(|x| (arena.mul(x, x), Rational::ONE)).collect();
             let square = arena.linear(&squares);
             Some(arena.apply(Function::Sqrt, square))
         }
         ExpressionKind::Pairs(f) => {
             let mut terms = Vec::new();
             for (a, b) in above_diagonal(n) {
-                let difference = difference_of(arena, a, b);
-                let difference = Some(difference);
+                let difference = Some(difference_of(arena, a, b));
                 terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));
             }
             Some(arena.linear(&terms))
         }
+        // Matrices stand within traces only, and entries of fields have no notation.
+        _ => arithmetic(arena, n, e, &of),
     }
 }
 
@@ -139,10 +107,10 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
         "t" => Some(arena.symbol(Quantity::Time)),
         "D" => power(arena, 1),
         "det" => power(arena, n),
-        "I1" => Some(Base::Trace.symbol(arena)),
+        "I1" => Some(Base::Trace(1).symbol(arena)),
         // e_2 = ((tr G)^2 - tr G^2)/2
         "I2" if n == 3 => {
-            let (first, second) = (Base::Trace.symbol(arena), Base::TraceOfSquare.symbol(arena));
+            let (first, second) = (Base::Trace(1).symbol(arena), Base::Trace(2).symbol(arena));
             let square = arena.mul(first, first);
             let half = Rational::HALF;
             Some(arena.linear(&[(square, half.clone()), (second, -&half)]))

@@ -11,8 +11,8 @@ use crate::symbol::Quantity;
 
 /// The guards of an energy, in the order of its parts, angles last; those that hold everywhere are left out.
 pub(super) fn guards(arena: &mut Arena, n: usize, energy: &Expression, given: bool) -> Vec<Guard> {
-    let mut guards = Guards { arena, n, given, found: Vec::new() };
-    guards.read(energy, None);
+    let mut guards = Guards { arena, n, given, difference: None, found: Vec::new() };
+    guards.read(energy);
     // Angles come last.
     guards.found.sort_by_key(|guard| guard.bound == Bound::Angle);
     guards.found
@@ -23,68 +23,69 @@ struct Guards<'a> {
     n: usize,
     /// Are components told from those in orthonormal bases?
     given: bool,
+    /// What `d` stands for.
+    difference: Option<Expr>,
     found: Vec<Guard>,
 }
 
 impl Guards<'_> {
-    /// A part of the energy, with `difference` for `d`.
-    fn read(&mut self, part: &Expression, difference: Option<Expr>) {
-        if let ExpressionKind::Pairs(one) = &part.kind {
-            let n = self.n;
-            for (a, b) in above_diagonal(n) {
-                let difference = difference_of(self.arena, a, b);
-                self.read(one, Some(difference));
-            }
-            return;
-        }
+    /// A part of the energy.
+    fn read(&mut self, part: &Expression) {
         match &part.kind {
+            ExpressionKind::Pairs(one) => {
+                let outside = self.difference;
+                for (a, b) in above_diagonal(self.n) {
+                    self.difference = Some(difference_of(self.arena, a, b));
+                    self.read(one);
+                }
+                self.difference = outside;
+                return;
+            }
             ExpressionKind::Call(Function::Ln, argument) => {
-                self.keep(part, argument, Bound::Positive, difference);
+                self.keep(part, argument, Bound::Positive);
                 // The logarithm of a square ends where that is zero.
-                self.divide(part, argument, difference);
+                self.divide(part, argument);
             }
-            ExpressionKind::Call(Function::Sqrt, argument) => {
-                self.keep(part, argument, Bound::NotNegative, difference);
-            }
+            ExpressionKind::Call(Function::Sqrt, argument) => self.keep(part, argument, Bound::NotNegative),
             // A tangent is a quotient by the cosine.
             ExpressionKind::Call(Function::Tan, argument) => {
-                if let Some(argument_value) = self.value(argument, difference) {
+                if let Some(argument_value) = self.value(argument) {
                     let cosine = self.arena.apply(Function::Cos, argument_value);
                     self.add(part, format!("cos({argument})"), Bound::NotZero, cosine);
                 }
             }
-            ExpressionKind::Binary(Operator::Divide, _, divisor) => self.divide(part, divisor, difference),
+            ExpressionKind::Binary(Operator::Divide, _, divisor) => self.divide(part, divisor),
             ExpressionKind::Binary(Operator::Power, base, exponent)
                 if constant(exponent, self.n).is_some_and(|exponent| exponent.is_negative()) =>
             {
-                self.divide(part, base, difference);
+                self.divide(part, base);
             }
             _ => {}
         }
         if let ExpressionKind::Call(Function::Sin | Function::Cos | Function::Tan, argument) = &part.kind {
-            self.turn(part, argument, difference);
+            self.turn(part, argument);
         }
-        part.operands().into_iter().for_each(|operand| self.read(operand, difference));
+        part.operands().into_iter().for_each(|operand| self.read(operand));
     }
 
     /// The factors of what a part divides by.
-    fn divide(&mut self, part: &Expression, divisor: &Expression, difference: Option<Expr>) {
+    fn divide(&mut self, part: &Expression, divisor: &Expression) {
         match &divisor.kind {
             ExpressionKind::Binary(Operator::Multiply, a, b) => {
-                self.divide(part, a, difference);
-                self.divide(part, b, difference);
+                self.divide(part, a);
+                self.divide(part, b);
             }
             ExpressionKind::Negate(a)
             | ExpressionKind::Binary(Operator::Power, a, _)
             | ExpressionKind::Binary(Operator::Divide, a, _)
-            | ExpressionKind::Call(Function::Abs, a) => self.divide(part, a, difference),
-            _ => self.keep(part, divisor, Bound::NotZero, difference),
+            | ExpressionKind::Call(Function::Abs, a) => self.divide(part, a),
+            _ => self.keep(part, divisor, Bound::NotZero),
         }
     }
 
     /// The argument of a periodic function, where it contains the time.
-    fn turn(&mut self, part: &Expression, argument: &Expression, difference: Option<Expr>) {
-        let Some(value) = self.value(argument, difference) else { return };
+    fn turn(&mut self, part: &Expression, argument: &Expression) {
+        let Some(value) = self.value(argument) else { return };
         let time = self.arena.symbol(Quantity::Time);
         let is_known = self.found.iter().any(|guard| guard.value == value && guard.bound == Bound::Angle);
         if !is_known && self.arena.any_symbol(value, &mut |symbol| symbol == time) {
@@ -93,14 +94,19 @@ impl Guards<'_> {
         }
     }
 
-    fn keep(&mut self, part: &Expression, argument: &Expression, bound: Bound, difference: Option<Expr>) {
-        if let Some(value) = self.value(argument, difference) {
+    fn keep(&mut self, part: &Expression, argument: &Expression, bound: Bound) {
+        if let Some(value) = self.value(argument) {
             self.add(part, argument.to_string(), bound, value);
         }
     }
 
-    fn value(&mut self, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
-        value(self.arena, self.n, e, Reading { difference, given: self.given, ..Reading::default() })
+    fn value(&mut self, e: &Expression) -> Option<Expr> {
+        value(
+            self.arena,
+            self.n,
+            e,
+            Reading { difference: self.difference, given: self.given, ..Reading::default() },
+        )
     }
 
     /// One more guard, unless it holds everywhere, is there already, or is one of numbers and fields, which are looked at

@@ -1,9 +1,11 @@
 //! The matrices of `metrics(...)`.
 
-use super::expression;
-use crate::algebra::{Arena, Expr, Rational};
+use super::coefficient;
+use crate::algebra::ring::table;
+use crate::algebra::{Arena, Expr, Matrix, Rational};
 use crate::mechanics::metrics::{Bases, Metrics};
-use crate::spec::{Metric, Spec, Value};
+use crate::mechanics::term::Coefficient;
+use crate::spec::{Metric, Spec};
 
 /// The metrics; `None` where they are the identity, stated or not, and where a size is wrong.
 pub fn metrics(arena: &mut Arena, spec: &Spec) -> Option<Metrics> {
@@ -21,21 +23,12 @@ pub fn metrics(arena: &mut Arena, spec: &Spec) -> Option<Metrics> {
 /// The identity where nothing is stated.
 fn matrix(arena: &mut Arena, spec: &Spec, metric: Option<&Metric>) -> Option<Vec<Vec<Expr>>> {
     let n = spec.dim.value;
-    let zero = arena.constant(Rational::ZERO);
-    let diagonal = |entries: Vec<Expr>| -> Vec<Vec<Expr>> {
-        let row = |i: usize| (0..n).map(|j| if i == j { entries[i] } else { zero }).collect();
-        (0..n).map(row).collect()
-    };
-    let mut of = |e| expression(arena, n, e);
-    match metric.map(|metric| &metric.value) {
-        None => Some(diagonal(vec![arena.constant(Rational::ONE); n])),
-        Some(Value::Scalar(e)) => Some(diagonal(vec![of(e)?; n])),
-        Some(Value::Diagonal(entries)) => {
-            entries.iter().map(of).collect::<Option<Vec<Expr>>>().filter(|list| list.len() == n).map(diagonal)
+    let [zero, one] = [Rational::ZERO, Rational::ONE].map(|number| arena.constant(number));
+    let stated = metric.map(|metric| coefficient(arena, n, &metric.value));
+    match stated.unwrap_or(Some(Coefficient::Scalar(one)))? {
+        Coefficient::Scalar(e) => Some(table(n, |i, j| if i == j { e } else { zero })),
+        Coefficient::Matrix(Matrix(rows)) => {
+            (rows.len() == n && rows.iter().all(|row| row.len() == n)).then_some(rows)
         }
-        Some(Value::Matrix(rows)) if rows.len() == n && rows.iter().all(|row| row.len() == n) => {
-            rows.iter().map(|row| row.iter().map(&mut of).collect()).collect()
-        }
-        Some(Value::Matrix(_)) => None,
     }
 }

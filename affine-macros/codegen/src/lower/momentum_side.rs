@@ -21,23 +21,24 @@ pub fn stated(arena: &mut Arena, spec: &Spec) -> Option<Stated> {
         let value = expression(arena, n, written)?;
         let value = Polynomial::normal_form(arena, value);
         let zero = Isotropic::zero();
-        match term.kind.value {
-            MomentumKind::Casimir2 => parts.push((place, Isotropic { casimir2: value, ..zero })),
-            MomentumKind::Casimir1Squared => {
-                parts.push((place, Isotropic { casimir1_squared: value, ..zero }));
+        let frame = match term.kind.value {
+            MomentumKind::SpinSquared | MomentumKind::SpaceTranslation => Frame::Space,
+            _ => Frame::Body,
+        };
+        let part = match term.kind.value {
+            MomentumKind::Casimir2 => Isotropic { casimir2: value, ..zero },
+            MomentumKind::Casimir1Squared => Isotropic { casimir1_squared: value, ..zero },
+            MomentumKind::VorticitySquared | MomentumKind::SpinSquared => {
+                norm = Some(frame);
+                Isotropic { skew: value, ..zero }
             }
-            MomentumKind::VorticitySquared => {
-                norm = Some(Frame::Body);
-                parts.push((place, Isotropic { skew: value, ..zero }));
+            MomentumKind::Casimir3 => Isotropic { casimir3: value, ..zero },
+            MomentumKind::BodyTranslation | MomentumKind::SpaceTranslation => {
+                translation = Some((place, frame, value));
+                continue;
             }
-            MomentumKind::SpinSquared => {
-                norm = Some(Frame::Space);
-                parts.push((place, Isotropic { skew: value, ..zero }));
-            }
-            MomentumKind::Casimir3 => parts.push((place, Isotropic { casimir3: value, ..zero })),
-            MomentumKind::BodyTranslation => translation = Some((place, Frame::Body, value)),
-            MomentumKind::SpaceTranslation => translation = Some((place, Frame::Space, value)),
-        }
+        };
+        parts.push((place, part));
     }
     let moving = translation.as_ref().map(|(_, frame, _)| *frame);
     let frame = norm.or(moving).unwrap_or(Frame::Body);

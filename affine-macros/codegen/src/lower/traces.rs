@@ -7,20 +7,17 @@ mod tape;
 
 use std::collections::BTreeMap;
 
-use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::ring::{Square, pairs, table, transpose};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::potential::Base;
 use crate::spec::{Expression, ExpressionKind, MatrixName};
 
 pub(super) use tape::entry;
-use tape::{Made, Scalars, Tape, times, transposed};
+use tape::{Made, Scalars, Tape, times};
 
 /// The value of a trace.
 pub(super) fn value(arena: &mut Arena, n: usize, trace: &Expression, scalars: Scalars) -> Option<Expr> {
-    let mut tape = Tape { arena, n, scalars, nodes: Vec::new() };
-    let terms = tape.terms(trace)?;
-    let values: Vec<_> = terms.iter().map(|term| (tape.value(term), Rational::ONE)).collect();
-    Some(arena.linear(&values))
+    Tape { arena, n, scalars, nodes: Vec::new() }.whole(trace).map(|(_, value)| value)
 }
 
 /// A trace with its slopes.
@@ -35,9 +32,7 @@ pub(super) struct Trace {
 /// A trace with its slopes; `None` where it is a base function itself.
 pub(super) fn slopes(arena: &mut Arena, n: usize, trace: &Expression, scalars: Scalars) -> Option<Trace> {
     let mut tape = Tape { arena, n, scalars, nodes: Vec::new() };
-    let terms = tape.terms(trace)?;
-    let values: Vec<_> = terms.iter().map(|term| (tape.value(term), Rational::ONE)).collect();
-    let value = tape.arena.linear(&values);
+    let (terms, value) = tape.whole(trace)?;
     if tape.arena.as_symbol(value).is_some() {
         return None;
     }
@@ -78,6 +73,17 @@ impl Tape<'_> {
         let mut terms = Vec::new();
         self.split(whole, one, &mut terms);
         Some(terms)
+    }
+
+    /// The same with the value of the sum.
+    fn whole(&mut self, trace: &Expression) -> Option<(Vec<Term>, Expr)> {
+        let terms = self.terms(trace)?;
+        let value = |term: &Term| {
+            let trace = self.trace(&term.factors);
+            (self.arena.mul(term.scalar, trace), Rational::ONE)
+        };
+        let values: Vec<_> = terms.iter().map(value).collect();
+        Some((terms, self.arena.linear(&values)))
     }
 
     /// `scalar tr(whole)` as a sum of traces of products.
@@ -154,16 +160,9 @@ impl Tape<'_> {
         let (base, power) = self.nodes[factor].power;
         match (&self.nodes[base].made, power) {
             (Made::Named(MatrixName::Placement), _) => None,
-            (Made::Named(_), 1) => Some(Base::Trace),
-            (Made::Named(_), 2) => Some(Base::TraceOfSquare),
-            (Made::Named(_), 3) => Some(Base::TraceOfCube),
+            (Made::Named(_), 1..=3) => Some(Base::Trace(power as usize)),
             _ => None,
         }
-    }
-
-    fn value(&mut self, term: &Term) -> Expr {
-        let trace = self.trace(&term.factors);
-        self.arena.mul(term.scalar, trace)
     }
 
     fn trace(&mut self, factors: &[usize]) -> Expr {
@@ -173,9 +172,7 @@ impl Tape<'_> {
             }
             let (base, power) = self.nodes[*factor].power;
             if power == 1 {
-                let diagonal: Vec<_> =
-                    (0..self.n).map(|a| (self.nodes[*factor].value[a][a], Rational::ONE)).collect();
-                return self.arena.linear(&diagonal);
+                return diagonal_sum(self.arena, &self.nodes[*factor].value);
             }
             let halves = [power / 2, power - power / 2].map(|power| self.power(base, power));
             return self.contracted(halves);
@@ -217,12 +214,12 @@ impl Tape<'_> {
                 let (base, power) = self.nodes[*factor].power;
                 number = Rational::from(i64::from(power));
                 let below = self.power(base, power.saturating_sub(1));
-                open.insert(base, transposed(&self.nodes[below].value));
+                open.insert(base, transpose(&self.nodes[below].value));
             }
             factors => {
                 let Some([a, b]) = self.halves(factors) else { return list };
-                open.insert(a, transposed(&self.nodes[b].value));
-                let slope = transposed(&self.nodes[a].value);
+                open.insert(a, transpose(&self.nodes[b].value));
+                let slope = transpose(&self.nodes[a].value);
                 self.add(&mut open, b, slope, &Rational::ONE);
             }
         }
@@ -245,8 +242,7 @@ impl Tape<'_> {
         match self.nodes[place].made.clone() {
             Made::Named(matrix) => self.by_entries(matrix, &slope, scale, list),
             Made::Scalar(value) => {
-                let diagonal: Vec<_> = (0..self.n).map(|a| (slope[a][a], Rational::ONE)).collect();
-                let sum = self.arena.linear(&diagonal);
+                let sum = diagonal_sum(self.arena, &slope);
                 let sum = self.arena.mul(scale, sum);
                 for (symbol, inner) in self.arena.gradient(value, &|_| true) {
                     list.push((symbol, self.arena.mul(sum, inner)));
@@ -258,8 +254,8 @@ impl Tape<'_> {
                 }
             }
             Made::Product(a, b) => {
-                let by_left = times(self.arena, &slope, &transposed(&self.nodes[b].value));
-                let by_right = times(self.arena, &transposed(&self.nodes[a].value), &slope);
+                let by_left = times(self.arena, &slope, &transpose(&self.nodes[b].value));
+                let by_right = times(self.arena, &transpose(&self.nodes[a].value), &slope);
                 self.add(open, a, by_left, &Rational::ONE);
                 self.add(open, b, by_right, &Rational::ONE);
             }
@@ -292,16 +288,17 @@ impl Tape<'_> {
         scale: Expr,
         list: &mut Vec<(Expr, Expr)>,
     ) {
-        let n = self.n;
-        for (a, b) in pairs(n) {
-            let is_symmetric = matrix != MatrixName::Placement;
-            let sum = match is_symmetric && a != b {
-                true if a > b => continue,
-                true => self.arena.add(slope[a][b], slope[b][a]),
-                false => slope[a][b],
-            };
+        let is_symmetric = matrix != MatrixName::Placement;
+        for (a, b) in pairs(self.n).filter(|(a, b)| !is_symmetric || a <= b) {
+            let is_twice = is_symmetric && a != b;
+            let sum = if is_twice { self.arena.add(slope[a][b], slope[b][a]) } else { slope[a][b] };
             let symbol = entry(matrix, a, b).symbol(self.arena);
             list.push((symbol, self.arena.mul(scale, sum)));
         }
     }
+}
+
+fn diagonal_sum(arena: &mut Arena, matrix: &Square<Expr>) -> Expr {
+    let diagonal: Vec<_> = (0..matrix.len()).map(|a| (matrix[a][a], Rational::ONE)).collect();
+    arena.linear(&diagonal)
 }

@@ -11,8 +11,8 @@ mod components;
 mod momenta;
 
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, deviator, skew};
-use crate::algebra::{Arena, Polynomial, Rational};
+use crate::algebra::ring::{Ring, Square, deviator, dot, skew};
+use crate::algebra::{Arena, Polynomial};
 
 use super::charts::Chart;
 use super::equations::Load;
@@ -107,9 +107,5 @@ impl Flow {
 
 /// Half the rate of the squared norm of the skew part.
 fn norm_rate([m, m_dot]: &[Square<Residue>; 2]) -> Residue {
-    let mut rate = Residue::ZERO;
-    for (w, w_dot) in skew(m).iter().zip(&skew(m_dot)) {
-        rate.plus_product(w, w_dot, &Rational::ONE);
-    }
-    rate
+    dot(skew(m).iter().zip(&skew(m_dot)))
 }

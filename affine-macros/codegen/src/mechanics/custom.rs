@@ -83,7 +83,7 @@ pub enum On {
     Centre,
 }
 
-/// Rotations that leave a potential unchanged, `U(A phi B) = U(phi)`.
+/// Rotations that leave a potential unchanged, `U(A phi B) = U(phi)`; the runtime knows them by their numbers in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// All rotations of space and body: a function of the stretches.
@@ -97,16 +97,6 @@ pub enum Class {
 }
 
 impl Class {
-    /// The number by which the runtime knows it.
-    fn number(self) -> u8 {
-        match self {
-            Self::Isotropic => 0,
-            Self::Green => 1,
-            Self::Finger => 2,
-            Self::General => 3,
-        }
-    }
-
     fn keeps_spin(self) -> bool {
         matches!(self, Self::Isotropic | Self::Green)
     }
@@ -214,7 +204,7 @@ impl Custom {
         let slopes = Group::Matrix(along_phi.0);
         let kernel = match self.by {
             By::Field => Kernel {
-                callee: Callee::Custom(self.place, Asked::Slopes(class.number(), moves)),
+                callee: Callee::Custom(self.place, Asked::Slopes(class as u8, moves)),
                 arguments: placed(chart),
                 results: vec![Group::Vector(along_x), slopes],
             },
@@ -232,7 +222,7 @@ impl Custom {
         let Role::Potential { class, moves } = self.role else { return None };
         let energy = arena.symbol(Quantity::FieldPotential.at([self.place]));
         let (callee, arguments) = match self.by {
-            By::Field => (Callee::Custom(self.place, Asked::Energy(class.number(), moves)), placed(chart)),
+            By::Field => (Callee::Custom(self.place, Asked::Energy(class as u8, moves)), placed(chart)),
             By::SelfGravity(_) => (Callee::Ellipsoidal, vec![Group::Matrix(chart.placement())]),
         };
         let kernel = Kernel { callee, arguments, results: vec![Group::Scalar(energy)] };

@@ -1,6 +1,6 @@
 //! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
 
-use crate::algebra::ring::{above_diagonal, dot, pairs, table, times, transpose};
+use crate::algebra::ring::{above_diagonal, dot, pairs, product, table, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -191,11 +191,8 @@ impl Isotropic {
 
 /// `tr X^3`.
 fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
-    let n = spin.len();
-    (0..n)
-        .flat_map(|a| (0..n).flat_map(move |b| (0..n).map(move |c| (a, b, c))))
-        .map(|(a, b, c)| spin[a][b].mul(&spin[b][c]).mul(&spin[c][a]))
-        .sum()
+    let square = product(&spin.to_vec(), &spin.to_vec());
+    dot(pairs(spin.len()).map(|(a, b)| (&square[a][b], &spin[b][a])))
 }
 
 /// `p_hat = phi^T p`.

@@ -3,7 +3,7 @@
 use crate::algebra::fault::never_missing;
 use crate::algebra::linear::{self, Inertia};
 use crate::algebra::ring::{Square, components, pairing, pairs, table};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
 use super::direction::{BasisVector, Direction, entries, invariant};
@@ -209,7 +209,7 @@ pub struct NumericBlock {
 
 impl NumericBlock {
     fn as_atoms(&self) -> Vec<Vec<Polynomial>> {
-        self.inverse.iter().map(|row| row.iter().map(|s| Polynomial::atom(*s)).collect()).collect()
+        Matrix(self.inverse.clone()).atoms()
     }
 }
 
@@ -230,9 +230,7 @@ impl Inverse {
         }
         let b = self.numeric_blocks.len() + 1;
         let size = block.form.len();
-        let symbol =
-            |i: usize, j: usize| arena.symbol(Quantity::InverseBlock.at([b, i.min(j) + 1, i.max(j) + 1]));
-        let inverse: Vec<Vec<Expr>> = table(size, symbol);
+        let inverse = Matrix::symmetric(arena, Quantity::InverseBlock.at([b]), size).0;
         self.numeric_blocks.push(NumericBlock {
             basis: block.velocities.clone(),
             form: block.form.clone(),
@@ -244,10 +242,8 @@ impl Inverse {
 
 /// The form in a basis, cut into its connected components.
 pub(super) fn blocks(matrix: &Square<Polynomial>, basis: &[BasisVector]) -> Vec<Block> {
-    let form: Vec<Vec<Polynomial>> = basis
-        .iter()
-        .map(|a| basis.iter().map(|b| pairing(matrix, &a.entries, &b.entries)).collect())
-        .collect();
+    let form: Square<Polynomial> =
+        table(basis.len(), |i, j| pairing(matrix, &basis[i].entries, &basis[j].entries));
     let block = |members: Vec<usize>| Block {
         squares: members.iter().map(|i| basis[*i].square()).collect(),
         velocities: members.iter().map(|i| basis[*i].entries.clone()).collect(),

@@ -10,7 +10,6 @@ mod base;
 mod dilatation;
 mod domain;
 mod excess;
-mod far_away;
 mod invariance;
 mod load;
 mod principal;
@@ -18,7 +17,6 @@ mod pulled_back;
 mod restriction;
 mod rewriting;
 mod scaled;
-mod second;
 mod strain;
 pub mod stretches;
 mod sums;
@@ -61,19 +59,15 @@ pub struct Potential {
 impl Potential {
     /// The potential `energy`, an expression in base functions, parameters and numbers.
     pub fn new(arena: &mut Arena, dim: usize, energy: Expr) -> Self {
-        let slopes = Self::slopes(arena, dim, energy);
-        let invariance = Evidence::new(arena, dim, &slopes, None);
-        Self::of(arena, dim, energy, slopes, invariance)
+        Self::on(arena, dim, energy, None)
     }
 
-    fn of(
-        arena: &mut Arena,
-        dim: usize,
-        energy: Expr,
-        slopes: Vec<(Base, Expr)>,
-        invariance: Evidence,
-    ) -> Self {
-        let time = Self::time_in(arena, energy);
+    /// The same on the group of a constraint.
+    fn on(arena: &mut Arena, dim: usize, energy: Expr, group: Option<Constraint>) -> Self {
+        let slopes = Self::slopes(arena, dim, energy);
+        let invariance = Evidence::new(arena, dim, &slopes, group);
+        let time = arena.symbol(Quantity::Time);
+        let time = arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time);
         let (domain, writings) = (Vec::new(), Vec::new());
         Self { dim, energy, slopes, other_slopes: None, time, invariance, domain, writings }
     }
@@ -99,14 +93,12 @@ impl Potential {
     ) -> Option<Self> {
         let energy = restricted(arena, dim, energy, group)?;
         let domain = domain::confined(arena, dim, domain, group)?;
-        let slopes = Self::slopes(arena, dim, energy);
-        let invariance = Evidence::new(arena, dim, &slopes, Some(group));
-        Some(Self::of(arena, dim, energy, slopes, invariance).within(domain))
+        Some(Self::on(arena, dim, energy, Some(group)).within(domain))
     }
 
     /// Does it change along no velocity that the constraint leaves free?
     pub fn is_constant(&self) -> bool {
-        self.keeps(Candidate::LinearMomentum) && self.invariance.moves_no_placement()
+        self.keeps(Candidate::LinearMomentum) && self.keeps(Candidate::AffineSpin)
     }
 
     fn slopes(arena: &mut Arena, dim: usize, energy: Expr) -> Vec<(Base, Expr)> {
@@ -117,12 +109,6 @@ impl Potential {
             |wanted: Expr| gradient.iter().find(|(symbol, _)| *symbol == wanted).map(|(_, slope)| *slope);
         let slopes = bases.into_iter().filter_map(|(symbol, base)| Some((base, slope(symbol)?)));
         slopes.filter(|(_, slope)| !vanishes(arena, *slope)).collect()
-    }
-
-    /// The time, where the energy depends on it.
-    fn time_in(arena: &mut Arena, energy: Expr) -> Option<Expr> {
-        let time = arena.symbol(Quantity::Time);
-        arena.any_symbol(energy, &mut |symbol| symbol == time).then_some(time)
     }
 
     /// Does it depend on the time?

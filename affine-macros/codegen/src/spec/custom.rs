@@ -6,7 +6,7 @@ use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 use super::entries::{Piece, pieces, region, shortened, unwrapped};
 use super::expression::Expression;
 use super::expression_parser::{self, Language};
-use super::names::{Named, named};
+use super::names::{Named, named, set_of_names};
 use super::spanned::Spanned;
 use crate::diagnostics::{Diagnostics, ForceMistake, PotentialMistake, Region};
 
@@ -35,45 +35,35 @@ pub struct SelfGravity {
     pub span: Region,
 }
 
-/// What a field computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// The force `Q` on `Sigma`.
-    Spatial,
-    /// The force `Q_hat` on `Sigma_hat`.
-    Comoving,
-    /// The force `Q_tr` on `p`.
-    Translation,
-    /// A potential with `U(A phi B) = U(phi)` for all rotations `A`, `B`.
-    Isotropic,
-    /// A potential that is a function of `G = phi^T phi`.
-    Green,
-    /// A potential that is a function of `Ct = phi phi^T`.
-    Finger,
-    /// Any other potential.
-    General,
+set_of_names! {
+    /// What a field computes.
+    pub enum Role {
+        /// The force `Q` on `Sigma`.
+        Spatial = "spatial",
+        /// The force `Q_hat` on `Sigma_hat`.
+        Comoving = "comoving",
+        /// The force `Q_tr` on `p`.
+        Translation = "translation",
+        /// A potential with `U(A phi B) = U(phi)` for all rotations `A`, `B`.
+        Isotropic = "isotropic",
+        /// A potential that is a function of `G = phi^T phi`.
+        Green = "green",
+        /// A potential that is a function of `Ct = phi phi^T`.
+        Finger = "finger",
+        /// Any other potential.
+        General = "general",
+    }
 }
 
-/// What may be said of what a field computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A force that has no power.
-    Gyroscopic,
-    /// A potential that depends on `x`; a force that depends on the time, `x` and `phi` alone.
-    Position,
+set_of_names! {
+    /// What may be said of what a field computes.
+    pub enum Mark {
+        /// A force that has no power.
+        Gyroscopic = "gyroscopic",
+        /// A potential that depends on `x`; a force that depends on the time, `x` and `phi` alone.
+        Position = "position",
+    }
 }
-
-named!(Mark { Gyroscopic: "gyroscopic", Position: "position" });
-
-named!(Role {
-    Spatial: "spatial",
-    Comoving: "comoving",
-    Translation: "translation",
-    Isotropic: "isotropic",
-    Green: "green",
-    Finger: "finger",
-    General: "general",
-});
 
 impl Role {
     /// A force rather than a potential?
@@ -128,23 +118,14 @@ pub(super) enum Summand {
 
 /// Takes the summands that are no formulas out of a sum; what is left of it.
 pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec<Summand>, Option<Piece>) {
-    let mut taken = Vec::new();
-    let mut rest: Vec<TokenTree> = Vec::new();
-    let mut summand: Vec<TokenTree> = Vec::new();
-    let mut sign: Option<TokenTree> = None;
-    let mut tokens = unwrapped(piece.tokens).into_iter();
-    loop {
-        let token = tokens.next();
-        match &token {
-            Some(TokenTree::Punct(plus)) if plus.as_char() == '+' => {}
-            Some(_) => {
-                summand.extend(token);
-                continue;
-            }
-            None => {}
-        }
-        let summand = std::mem::take(&mut summand);
-        match summand.as_slice() {
+    let (mut taken, mut rest) = (Vec::new(), Vec::new());
+    let tokens = unwrapped(piece.tokens);
+    let is_plus = |token: &TokenTree| matches!(token, TokenTree::Punct(plus) if plus.as_char() == '+');
+    let mut start: usize = 0;
+    for summand in tokens.split(is_plus) {
+        let sign = start.checked_sub(1).map(|plus| tokens[plus].clone());
+        start += summand.len() + 1;
+        match summand {
             [TokenTree::Ident(name), TokenTree::Group(group)]
                 if name == "custom" && group.delimiter() == Delimiter::Parenthesis =>
             {
@@ -160,13 +141,9 @@ pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec
                 taken.extend(self_gravity(name.span(), group, found).map(Summand::SelfGravity));
             }
             _ => {
-                rest.extend(sign.take().filter(|_| !rest.is_empty()));
-                rest.extend(summand);
+                rest.extend(sign.filter(|_| !rest.is_empty()));
+                rest.extend_from_slice(summand);
             }
-        }
-        sign = token;
-        if sign.is_none() {
-            break;
         }
     }
     let rest = region(&rest).map(|at| Piece { tokens: rest, at });
@@ -176,16 +153,18 @@ pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec
 /// The strength of a body's gravity on itself.
 fn self_gravity(name: Span, group: &Group, found: &mut Diagnostics) -> Option<SelfGravity> {
     let span = Region { start: name, end: group.span_close() };
-    let mut list = pieces(group.stream(), group.span_close()).into_iter();
-    let (Some(Piece { tokens, at }), None) = (list.next(), list.next()) else {
-        let written = pieces(group.stream(), group.span_close()).len();
-        let mistake =
-            PotentialMistake::ArgumentCount { name: SELF_GRAVITY, parameters: &["k"], found: written };
-        found.report(span, mistake);
-        return None;
-    };
-    let strength = expression_parser::parse(tokens, at, Language::Coefficient, found).ok()?;
-    Some(SelfGravity { strength, span })
+    let arguments: Result<[Piece; 1], _> = pieces(group.stream(), group.span_close()).try_into();
+    match arguments {
+        Ok([Piece { tokens, at }]) => {
+            let strength = expression_parser::parse(tokens, at, Language::Coefficient, found).ok()?;
+            Some(SelfGravity { strength, span })
+        }
+        Err(arguments) => {
+            let (name, parameters, count) = (SELF_GRAVITY, &["k"], arguments.len());
+            found.report(span, PotentialMistake::ArgumentCount { name, parameters, found: count });
+            None
+        }
+    }
 }
 
 /// The field and what is said of it.

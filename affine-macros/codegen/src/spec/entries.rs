@@ -30,10 +30,6 @@ pub(super) enum Body {
 }
 
 /// From the first to the last token.
-pub(super) fn extent(tokens: &TokenStream) -> Option<Region> {
-    region(&tokens.clone().into_iter().collect::<Vec<_>>())
-}
-
 pub(super) fn region(tokens: &[TokenTree]) -> Option<Region> {
     Some(Region { start: tokens.first()?.span(), end: tokens.last()?.span() })
 }
@@ -58,25 +54,6 @@ pub(super) fn pieces(tokens: TokenStream, end: Span) -> Vec<Piece> {
         close(open, end);
     }
     pieces
-}
-
-/// The items of a list, which a semicolon separates as well, once it is reported.
-pub(super) fn items(
-    list: &'static str,
-    tokens: TokenStream,
-    end: Span,
-    found: &mut Diagnostics,
-) -> Vec<Piece> {
-    let with_comma = |token: TokenTree| {
-        if !is_punct(&token, ';') {
-            return token;
-        }
-        malformed(list, &token, Meant::Comma, found);
-        let mut comma = Punct::new(',', Spacing::Alone);
-        comma.set_span(token.span());
-        comma.into()
-    };
-    pieces(tokens.into_iter().map(with_comma).collect(), end)
 }
 
 fn is_punct(token: &TokenTree, symbol: char) -> bool {
@@ -129,113 +106,141 @@ pub(super) fn unwrapped(mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
     tokens
 }
 
-/// The entries of a list whose keys are the names of `K`; `elsewhere` are the terms of the other side. Whatever is not an
-/// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands for it.
-pub(super) fn entries<K: Keyword>(
-    list: &'static str,
-    tokens: TokenStream,
-    end: Span,
-    elsewhere: &[&'static str],
-    found: &mut Diagnostics,
-) -> Vec<Entry<K>> {
-    let mut entries: Vec<Entry<K>> = Vec::new();
-    for piece in items(list, tokens, end, found)
-        .into_iter()
-        .flat_map(|piece| separated::<K>(list, piece, found))
-        .collect::<Vec<_>>()
-    {
-        let Some(entry) = entry(list, piece, elsewhere, found) else { continue };
-        match entries.iter_mut().find(|earlier: &&mut Entry<K>| earlier.key == entry.key) {
-            None => entries.push(entry),
-            Some(earlier) if matches!(earlier.body, Body::Refused(_)) => *earlier = entry,
-            Some(_) if matches!(entry.body, Body::Refused(_)) => {}
-            Some(_) => {
-                found.report(entry.at, NotationMistake::RepeatedKey { list, key: entry.key.name() });
+/// A list that is read: its name, and where mistakes in it are reported.
+pub(super) struct List<'a> {
+    pub(super) name: &'static str,
+    pub(super) found: &'a mut Diagnostics,
+}
+
+impl List<'_> {
+    /// The items of the list, which a semicolon separates as well, once it is reported.
+    pub(super) fn items(&mut self, tokens: TokenStream, end: Span) -> Vec<Piece> {
+        let with_comma = |token: TokenTree| {
+            if !is_punct(&token, ';') {
+                return token;
+            }
+            self.malformed(&token, Meant::Comma);
+            let mut comma = Punct::new(',', Spacing::Alone);
+            comma.set_span(token.span());
+            comma.into()
+        };
+        pieces(tokens.into_iter().map(with_comma).collect(), end)
+    }
+
+    /// The entries of the list, whose keys are the names of `K`; `elsewhere` are the terms of the other side. Whatever is not an
+    /// entry with a known key, or repeats one, is reported; where the key meant is plain, a refused entry stands for it.
+    pub(super) fn entries<K: Keyword>(
+        mut self,
+        tokens: TokenStream,
+        end: Span,
+        elsewhere: &[&'static str],
+    ) -> Vec<Entry<K>> {
+        let mut entries: Vec<Entry<K>> = Vec::new();
+        let items = self.items(tokens, end).into_iter();
+        let pieces: Vec<Piece> = items.flat_map(|piece| self.separated::<K>(piece)).collect();
+        for piece in pieces {
+            let Some(entry) = self.entry(piece, elsewhere) else { continue };
+            match entries.iter_mut().find(|earlier: &&mut Entry<K>| earlier.key == entry.key) {
+                None => entries.push(entry),
+                Some(earlier) if matches!(earlier.body, Body::Refused(_)) => *earlier = entry,
+                Some(_) if matches!(entry.body, Body::Refused(_)) => {}
+                Some(_) => {
+                    let mistake = NotationMistake::RepeatedKey { list: self.name, key: entry.key.name() };
+                    self.found.report(entry.at, mistake);
+                }
+            }
+        }
+        entries
+    }
+
+    /// The items of a piece in which a comma is missing: the next known key, with `=` or a list after it, stands where an
+    /// operator or the end should.
+    fn separated<K: Named>(&mut self, piece: Piece) -> Vec<Piece> {
+        let tokens = unwrapped(piece.tokens);
+        let begins = |i: &usize| {
+            let follows = !matches!(tokens[i - 1], TokenTree::Punct(_));
+            let named =
+                matches!(&tokens[*i], TokenTree::Ident(name) if K::named(&name.to_string()).is_some());
+            let stated = match tokens.get(i + 1) {
+                Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
+                Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
+                _ => false,
+            };
+            follows && named && stated
+        };
+        let mut ends: Vec<usize> = (1..tokens.len()).filter(begins).collect();
+        for start in &ends {
+            self.malformed(&tokens[*start], Meant::Unclear);
+        }
+        ends.push(tokens.len());
+        let mut start = 0;
+        let part = |end| {
+            let tokens = tokens[std::mem::replace(&mut start, end)..end].to_vec();
+            let at = region(&tokens).unwrap_or(piece.at);
+            Piece { tokens, at }
+        };
+        ends.into_iter().map(part).collect()
+    }
+
+    fn entry<K: Keyword>(&mut self, piece: Piece, elsewhere: &[&'static str]) -> Option<Entry<K>> {
+        let mut tokens = unwrapped(piece.tokens).into_iter();
+        let name = match tokens.next() {
+            Some(TokenTree::Ident(name)) => name,
+            other => {
+                let (at, found) = match &other {
+                    Some(token) => (token.span().into(), describe(token)),
+                    None => (piece.at, "a comma".to_owned()),
+                };
+                self.found.report(at, NotationMistake::ExpectedKey { list: self.name, found });
+                return None;
+            }
+        };
+        let at = name.span();
+        match K::named(&name.to_string()) {
+            Some(key) => Some(Entry { key, at, body: self.body(key, tokens) }),
+            None => {
+                let (meant, reported) = self.unknown(&name, elsewhere);
+                meant.map(|key| Entry { key, at, body: Body::Refused(reported) })
             }
         }
     }
-    entries
-}
 
-/// The items of a piece in which a comma is missing: the next known key, with `=` or a list after it, stands where an
-/// operator or the end should.
-fn separated<K: Named>(list: &'static str, piece: Piece, found: &mut Diagnostics) -> Vec<Piece> {
-    let tokens = unwrapped(piece.tokens);
-    let begins = |i: usize| {
-        let follows = !matches!(tokens[i - 1], TokenTree::Punct(_));
-        let named = matches!(&tokens[i], TokenTree::Ident(name) if K::named(&name.to_string()).is_some());
-        let stated = match tokens.get(i + 1) {
-            Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
-            Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
-            _ => false,
+    /// What follows the name of an entry.
+    fn body<K: Keyword>(&mut self, key: K, mut tokens: impl Iterator<Item = TokenTree>) -> Body {
+        let body = match tokens.next() {
+            None => Body::Nothing,
+            Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
+                let tokens: Vec<TokenTree> = tokens.by_ref().collect();
+                let at = region(&tokens).unwrap_or_else(|| equals.span().into());
+                Body::Value(Piece { tokens, at })
+            }
+            Some(TokenTree::Group(group)) if may_be_list(key, &group) => Body::List(group),
+            Some(other) => return Body::Refused(self.malformed(&other, meant(key, &other, tokens.next()))),
         };
-        follows && named && stated
-    };
-    let starts: Vec<usize> = (1..tokens.len()).filter(|i| begins(*i)).collect();
-    for start in &starts {
-        malformed(list, &tokens[*start], Meant::Unclear, found);
-    }
-    let ends = starts.iter().copied().chain([tokens.len()]);
-    let parts = [0].into_iter().chain(starts.iter().copied()).zip(ends);
-    parts
-        .map(|(start, end)| {
-            let tokens = tokens[start..end].to_vec();
-            let at = region(&tokens).unwrap_or(piece.at);
-            Piece { tokens, at }
-        })
-        .collect()
-}
-
-fn entry<K: Keyword>(
-    list: &'static str,
-    piece: Piece,
-    elsewhere: &[&'static str],
-    found: &mut Diagnostics,
-) -> Option<Entry<K>> {
-    let mut tokens = unwrapped(piece.tokens).into_iter();
-    let name = match tokens.next() {
-        Some(TokenTree::Ident(name)) => name,
-        other => {
-            let (at, text) = match &other {
-                Some(token) => (token.span().into(), describe(token)),
-                None => (piece.at, "a comma".to_owned()),
-            };
-            found.report(at, NotationMistake::ExpectedKey { list, found: text });
-            return None;
-        }
-    };
-    let at = name.span();
-    match K::named(&name.to_string()) {
-        Some(key) => Some(Entry { key, at, body: body(list, key, tokens, found) }),
-        None => {
-            let (meant, reported) = unknown(list, &name, elsewhere, found);
-            meant.map(|key| Entry { key, at, body: Body::Refused(reported) })
+        match tokens.next() {
+            None => body,
+            Some(extra) => Body::Refused(self.malformed(&extra, Meant::Unclear)),
         }
     }
-}
 
-/// What follows the name of an entry.
-fn body<K: Keyword>(
-    list: &'static str,
-    key: K,
-    mut tokens: impl Iterator<Item = TokenTree>,
-    found: &mut Diagnostics,
-) -> Body {
-    let body = match tokens.next() {
-        None => Body::Nothing,
-        Some(TokenTree::Punct(equals)) if equals.as_char() == '=' => {
-            let tokens: Vec<TokenTree> = tokens.by_ref().collect();
-            let at = region(&tokens).unwrap_or_else(|| equals.span().into());
-            Body::Value(Piece { tokens, at })
+    /// Reports a token that does not belong to its item.
+    pub(super) fn malformed(&mut self, token: &TokenTree, meant: Meant) -> Reported {
+        let mistake = NotationMistake::MalformedItem { list: self.name, found: describe(token), meant };
+        self.found.report(token.span(), mistake)
+    }
+
+    /// Reports a name that is no key. A term of the other side is told apart from a slip; for a slip, the key probably
+    /// meant.
+    fn unknown<K: Named>(&mut self, name: &Ident, elsewhere: &[&'static str]) -> (Option<K>, Reported) {
+        let (list, text) = (self.name, name.to_string());
+        if let Some(key) = elsewhere.iter().find(|key| **key == text) {
+            let other = if list == "hamiltonian" { "kinetic" } else { "hamiltonian" };
+            return (None, self.found.report(name.span(), NotationMistake::OtherSide { list, key, other }));
         }
-        Some(TokenTree::Group(group)) if may_be_list(key, &group) => Body::List(group),
-        Some(other) => {
-            return Body::Refused(malformed(list, &other, meant(key, &other, tokens.next()), found));
-        }
-    };
-    match tokens.next() {
-        None => body,
-        Some(extra) => Body::Refused(malformed(list, &extra, Meant::Unclear, found)),
+        let nearest = nearest(&text, K::names());
+        let mistake =
+            NotationMistake::UnknownKey { list, nearest, found: shortened(&text), known: K::names() };
+        (nearest.and_then(K::named), self.found.report(name.span(), mistake))
     }
 }
 
@@ -258,35 +263,4 @@ fn meant<K: Keyword>(key: K, token: &TokenTree, next: Option<TokenTree>) -> Mean
         TokenTree::Group(_) if key.takes_list() => Meant::RoundBrackets,
         _ => Meant::Unclear,
     }
-}
-
-/// Reports a token that does not belong to its item.
-pub(super) fn malformed(
-    list: &'static str,
-    token: &TokenTree,
-    meant: Meant,
-    found: &mut Diagnostics,
-) -> Reported {
-    found.report(token.span(), NotationMistake::MalformedItem { list, found: describe(token), meant })
-}
-
-/// Reports a name that is no key. A term of the other side is told apart from a slip; for a slip, the key probably
-/// meant.
-fn unknown<K: Named>(
-    list: &'static str,
-    name: &Ident,
-    elsewhere: &[&'static str],
-    found: &mut Diagnostics,
-) -> (Option<K>, Reported) {
-    let text = name.to_string();
-    if let Some(key) = elsewhere.iter().find(|key| **key == text) {
-        let mistake = match list {
-            "hamiltonian" => NotationMistake::OtherSide { list, key, other: "kinetic" },
-            _ => NotationMistake::OtherSide { list, key, other: "hamiltonian" },
-        };
-        return (None, found.report(name.span(), mistake));
-    }
-    let nearest = nearest(&text, K::names());
-    let mistake = NotationMistake::UnknownKey { list, nearest, found: shortened(&text), known: K::names() };
-    (nearest.and_then(K::named), found.report(name.span(), mistake))
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use proc_macro2::Ident;
 
-use super::names::{Named, named};
+use super::names::{Named, named, set_of_names};
 use crate::algebra::{Function, Rational};
 use crate::diagnostics::Region;
 
@@ -96,30 +96,27 @@ fn factors(part: &Expression) -> usize {
         ExpressionKind::PolynomialTrace(_) => return 0,
         _ => part.operands().into_iter().map(factors).sum(),
     };
-    match &part.kind {
+    let power = match &part.kind {
         ExpressionKind::Binary(Operator::Power, _, exponent) if within > 0 => match &exponent.kind {
-            ExpressionKind::Number(power) => {
-                let power = power.to_i64().and_then(|k| usize::try_from(k).ok());
-                within + power.map_or(0, more_factors)
-            }
-            _ => within,
+            ExpressionKind::Number(power) => power.to_i64().and_then(|k| usize::try_from(k).ok()),
+            _ => None,
         },
-        _ => within,
+        _ => None,
+    };
+    within + power.map_or(0, more_factors)
+}
+
+set_of_names! {
+    /// The n x n matrices of a potential.
+    pub enum MatrixName {
+        /// `G = phi^T phi`, the Green deformation tensor.
+        Green = "G",
+        /// `Ct = phi phi^T`, the inverse of the Cauchy deformation tensor (Finger tensor).
+        Finger = "Ct",
+        /// `phi`, the placement.
+        Placement = "phi",
     }
 }
-
-/// The n x n matrices of a potential.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MatrixName {
-    /// `G = phi^T phi`, the Green deformation tensor.
-    Green,
-    /// `Ct = phi phi^T`, the inverse of the Cauchy deformation tensor (Finger tensor).
-    Finger,
-    /// `phi`, the placement.
-    Placement,
-}
-
-named!(MatrixName { Green: "G", Finger: "Ct", Placement: "phi" });
 
 /// The binary operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,78 +167,55 @@ impl Expression {
     /// The operands of the outermost form.
     pub fn operands(&self) -> Vec<&Expression> {
         match &self.kind {
-            ExpressionKind::Number(_)
-            | ExpressionKind::Symbol(_)
-            | ExpressionKind::FieldEntry(..)
-            | ExpressionKind::Trace(_)
-            | ExpressionKind::Matrix(_)
-            | ExpressionKind::InverseTrace(_)
-            | ExpressionKind::Entry(..)
-            | ExpressionKind::Component(_)
-            | ExpressionKind::Norm => Vec::new(),
             ExpressionKind::PolynomialTrace(trace) => vec![&trace.written],
             ExpressionKind::Negate(one) | ExpressionKind::Call(_, one) | ExpressionKind::Pairs(one) => {
                 vec![one]
             }
             ExpressionKind::Binary(_, left, right) => vec![left, right],
+            _ => Vec::new(),
         }
     }
 
     fn binding(&self) -> Binding {
         match self.kind {
-            ExpressionKind::Number(_)
-            | ExpressionKind::Symbol(_)
-            | ExpressionKind::FieldEntry(..)
-            | ExpressionKind::Call(..)
-            | ExpressionKind::Trace(_)
-            | ExpressionKind::PolynomialTrace(_)
-            | ExpressionKind::Matrix(_)
-            | ExpressionKind::InverseTrace(_)
-            | ExpressionKind::Entry(..)
-            | ExpressionKind::Component(_)
-            | ExpressionKind::Norm
-            | ExpressionKind::Pairs(_) => Binding::Atom,
             ExpressionKind::Negate(_) => Binding::Sign,
             ExpressionKind::Binary(operator, ..) => operator.notation().1,
+            // Names, numbers, and what has brackets of its own.
+            _ => Binding::Atom,
         }
     }
 
     fn write(&self, at_least: Binding, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bracketed = self.binding() < at_least;
-        if bracketed {
-            f.write_str("(")?;
+        if self.binding() < at_least {
+            return write!(f, "({self})");
         }
         match &self.kind {
-            ExpressionKind::Number(value) => f.write_str(&decimal(value))?,
-            ExpressionKind::Symbol(name) => write!(f, "{name}")?,
-            ExpressionKind::FieldEntry(field, row, column) => write!(f, "{field}[{row},{column}]")?,
+            ExpressionKind::Number(value) => f.write_str(&decimal(value)),
+            ExpressionKind::Symbol(name) => write!(f, "{name}"),
+            ExpressionKind::FieldEntry(field, row, column) => write!(f, "{field}[{row},{column}]"),
             ExpressionKind::Negate(one) => {
                 f.write_str("-")?;
-                one.write(Binding::Sign, f)?;
+                one.write(Binding::Sign, f)
             }
             ExpressionKind::Binary(operator, left, right) => {
                 let (sign, _, [before, behind]) = operator.notation();
                 left.write(before, f)?;
                 f.write_str(sign)?;
-                right.write(behind, f)?;
+                right.write(behind, f)
             }
-            ExpressionKind::Call(function, one) => write!(f, "{}({one})", function.name())?,
+            ExpressionKind::Call(function, one) => write!(f, "{}({one})", function.name()),
             ExpressionKind::Trace(factors) => {
                 let names: Vec<&str> = factors.iter().map(|factor| factor.name()).collect();
-                write!(f, "tr({})", names.join("*"))?;
+                write!(f, "tr({})", names.join("*"))
             }
-            ExpressionKind::PolynomialTrace(trace) => write!(f, "tr({})", trace.written)?,
-            ExpressionKind::Matrix(matrix) => f.write_str(matrix.name())?,
-            ExpressionKind::InverseTrace(matrix) => write!(f, "tr({}^-1)", matrix.name())?,
-            ExpressionKind::Entry(matrix, row, column) => write!(f, "{}[{row},{column}]", matrix.name())?,
-            ExpressionKind::Component(index) => write!(f, "x[{index}]")?,
-            ExpressionKind::Norm => f.write_str("norm(x)")?,
-            ExpressionKind::Pairs(one) => write!(f, "pairs({one})")?,
+            ExpressionKind::PolynomialTrace(trace) => write!(f, "tr({})", trace.written),
+            ExpressionKind::Matrix(matrix) => f.write_str(matrix.name()),
+            ExpressionKind::InverseTrace(matrix) => write!(f, "tr({}^-1)", matrix.name()),
+            ExpressionKind::Entry(matrix, row, column) => write!(f, "{}[{row},{column}]", matrix.name()),
+            ExpressionKind::Component(index) => write!(f, "x[{index}]"),
+            ExpressionKind::Norm => f.write_str("norm(x)"),
+            ExpressionKind::Pairs(one) => write!(f, "pairs({one})"),
         }
-        if bracketed {
-            f.write_str(")")?;
-        }
-        Ok(())
     }
 }
 

@@ -219,18 +219,19 @@ impl<'p> Parser<'p> {
     fn number(&mut self, literal: &Literal) -> Result<Expression, Reported> {
         let span = Region::from(literal.span());
         let text = literal.to_string();
-        if let syn::Lit::Str(_) = syn::Lit::new(literal.clone()) {
+        let read = syn::Lit::new(literal.clone());
+        if let syn::Lit::Str(_) = read {
             let mistake = ExpressionMistake::Quoted { literal: super::entries::shortened(&text) };
             return Err(self.found.report(span, mistake));
         }
         // A macro can make the one token `-1`.
         let (negative, digits) = text.strip_prefix('-').map_or((false, text.as_str()), |rest| (true, rest));
-        let value = exact(digits).map_err(|mistake| self.found.report(span, mistake))?;
+        let value = exact(&read, digits).map_err(|mistake| self.found.report(span, mistake))?;
         let number = Expression { kind: ExpressionKind::Number(value), span };
-        if negative {
-            return Ok(Expression { kind: ExpressionKind::Negate(Box::new(number)), span });
-        }
-        Ok(number)
+        Ok(match negative {
+            true => Expression { kind: ExpressionKind::Negate(Box::new(number)), span },
+            false => number,
+        })
     }
 
     /// The operator that stands next, if it is one of these.
@@ -279,15 +280,18 @@ impl<'p> Parser<'p> {
 
 /// The rational that a literal denotes. Hexadecimal and the like have no fractions and no place here; a suffix
 /// would promise a machine type that exact numbers do not have.
-fn exact(literal: &str) -> Result<Rational, ExpressionMistake> {
+fn exact(read: &syn::Lit, literal: &str) -> Result<Rational, ExpressionMistake> {
     let not_a_number = || ExpressionMistake::NotANumber { literal: super::entries::shortened(literal) };
-    if !literal.starts_with(|first: char| first.is_ascii_digit()) {
+    let suffix = match read {
+        syn::Lit::Int(_) if ["0x", "0o", "0b"].iter().any(|radix| literal.starts_with(radix)) => None,
+        syn::Lit::Int(integer) => Some(integer.suffix()),
+        syn::Lit::Float(number) => Some(number.suffix()),
+        _ => None,
+    };
+    let Some((suffix, number)) = suffix.and_then(|suffix| Some((suffix, literal.strip_suffix(suffix)?)))
+    else {
         return Err(not_a_number());
-    }
-    let (number, suffix) = literal.split_at(number_length(literal));
-    if number == "0" && suffix.starts_with(['x', 'o', 'b']) {
-        return Err(not_a_number());
-    }
+    };
     if !suffix.is_empty() {
         let number = number.trim_end_matches('_').to_owned();
         return Err(ExpressionMistake::NumberSuffix { number, suffix: suffix.to_owned() });
@@ -299,24 +303,4 @@ fn exact(literal: &str) -> Result<Rational, ExpressionMistake> {
         return Err(out_of_range());
     }
     Rational::parse_decimal(number).ok_or_else(not_a_number)
-}
-
-/// Length of the leading `digits [. digits] [e [+|-] digits]`, with `_` between digits.
-fn number_length(literal: &str) -> usize {
-    let digits = |from: usize| {
-        let rest = literal.as_bytes().get(from..).unwrap_or_default();
-        from + rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'_').count()
-    };
-    let byte = |at: usize| literal.as_bytes().get(at).copied();
-    let mut end = digits(0);
-    if byte(end) == Some(b'.') {
-        end = digits(end + 1);
-    }
-    if matches!(byte(end), Some(b'e' | b'E')) {
-        let from = if matches!(byte(end + 1), Some(b'+' | b'-')) { end + 2 } else { end + 1 };
-        if literal[from..digits(from)].contains(|c: char| c.is_ascii_digit()) {
-            end = digits(from);
-        }
-    }
-    end
 }

@@ -1,10 +1,10 @@
 //! The arguments of the attribute.
 
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use syn::parse::Parser;
 
 use super::custom::{self, Custom, SelfGravity, Summand};
-use super::entries::{Body, Entry, Piece, describe, entries, items, malformed, shortened, unwrapped};
+use super::entries::{Body, Entry, List, Piece, describe, shortened, unwrapped};
 use super::expression_parser::{self, Language};
 use super::item::Item;
 use super::keys::{Key, Keyword, Side};
@@ -13,15 +13,8 @@ use super::names::{Claim, Named, nearest};
 use super::spanned::Spanned;
 use super::statement::{Metric, Potential, Spec, Symmetry, Term};
 use super::value;
-use crate::diagnostics::{Diagnostics, Meant, NotationMistake, Region, Reported};
+use crate::diagnostics::{Diagnostics, Meant, NotationMistake, Reported};
 use crate::symbol::TermKind;
-
-/// Terms that `hamiltonian(...)` has, and `kinetic(...)` and `dissipation(...)` have not.
-const MOMENTUM_TERMS: [&str; 3] = ["vorticity_squared", "spin_squared", "casimir3"];
-
-/// Terms that `kinetic(...)` has and `hamiltonian(...)` has not.
-const VELOCITY_TERMS: [&str; 6] =
-    ["body_inertia", "space_inertia", "dalembert", "body_tensor", "space_tensor", "flat_tensor"];
 
 /// The specification of an item.
 pub(super) fn parse(
@@ -30,7 +23,7 @@ pub(super) fn parse(
     found: &mut Diagnostics,
 ) -> Result<Spec, Reported> {
     let here = Span::call_site();
-    let entries: Vec<Entry<Key>> = entries("affine_model", args, here, &[], found);
+    let entries: Vec<Entry<Key>> = List { name: "affine_model", found }.entries(args, here, &[]);
     let (mut dim, mut symmetry, mut kinetic, mut runtime) = (None, None, None, None);
     let (mut hamiltonian, mut potential, mut metrics) = (None, None, [None, None]);
     let (mut require, mut emit) = (Vec::new(), Vec::new());
@@ -42,15 +35,19 @@ pub(super) fn parse(
             Key::Dim => dim = Some(dimension(expect_value(entry, found), found)),
             Key::Symmetry => symmetry = sides(expect_list(entry, found), at, found),
             Key::Kinetic => {
-                kinetic = Some((at, terms(KINETIC, expect_list(entry, found), at, found)));
+                let list = expect_list(entry, found);
+                let terms = terms::<_, MomentumKind>(("kinetic", TermKind::example), list, at, found);
+                kinetic = Some((at, terms));
             }
             Key::Hamiltonian => {
-                hamiltonian = Some((at, terms(HAMILTONIAN, expect_list(entry, found), at, found)));
+                let list = expect_list(entry, found);
+                let terms = terms::<_, TermKind>(("hamiltonian", momentum_side::example), list, at, found);
+                hamiltonian = Some((at, terms));
             }
             Key::Metrics => metrics = both_metrics(expect_list(entry, found), found),
             Key::Constraint => {
                 let piece = expect_value(entry, found).ok();
-                constraint = piece.and_then(|Piece { tokens, at }| member("constraint", tokens, at, found));
+                constraint = piece.and_then(|piece| member("constraint", piece, found));
             }
             Key::Potential => {
                 let parts = (&mut customs, &mut self_gravity);
@@ -58,13 +55,13 @@ pub(super) fn parse(
             }
             Key::Forces => forces(expect_value(entry, found), &mut customs, found),
             Key::Dissipation => {
-                let terms = terms(DISSIPATION, expect_list(entry, found), at, found);
+                let list = expect_list(entry, found);
+                let terms = terms::<_, MomentumKind>(("dissipation", TermKind::example), list, at, found);
                 dissipation = terms.map_or_else(|_| Vec::new(), |terms| terms.value);
             }
             Key::Group => {
-                group = expect_value(entry, found)
-                    .ok()
-                    .and_then(|Piece { tokens, at }| member("group", tokens, at, found));
+                let piece = expect_value(entry, found).ok();
+                group = piece.and_then(|piece| member("group", piece, found));
             }
             Key::Require => require = members("requirement", expect_list(entry, found), found),
             Key::Emit => emit = members("capability", expect_list(entry, found), found),
@@ -103,19 +100,22 @@ fn missing(key: Key, states: &'static str, at: Span, found: &mut Diagnostics) ->
     found.report(at, NotationMistake::MissingKey { key: key.name(), states, example: key.example() })
 }
 
-/// The value of an entry; a missing one is reported.
-fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Reported> {
+/// The value of an entry; a missing one is reported, with how the entry may look.
+fn expected<K: Keyword>(entry: Entry<K>, example: &str, found: &mut Diagnostics) -> Result<Piece, Reported> {
     match entry.body {
         Body::Value(piece) if !piece.tokens.is_empty() => Ok(piece),
         Body::Refused(reported) => Err(reported),
         _ => {
-            let mistake = NotationMistake::ExpectedValue {
-                key: entry.key.name(),
-                example: entry.key.example().to_owned(),
-            };
-            Err(found.report(entry.at, mistake))
+            let (key, example) = (entry.key.name(), example.to_owned());
+            Err(found.report(entry.at, NotationMistake::ExpectedValue { key, example }))
         }
     }
+}
+
+/// The same of a key of the attribute.
+fn expect_value(entry: Entry<Key>, found: &mut Diagnostics) -> Result<Piece, Reported> {
+    let example = entry.key.example();
+    expected(entry, example, found)
 }
 
 /// The list of an entry; a missing or empty one is reported.
@@ -145,72 +145,37 @@ fn sides(list: Result<Group, Reported>, key: Span, found: &mut Diagnostics) -> O
     let list = list.ok()?;
     let unclaimed = Spanned { value: Claim::None, span: key.into() };
     let mut symmetry = Symmetry { space: unclaimed, body: unclaimed };
-    for entry in entries::<Side>("symmetry", list.stream(), list.span_close(), &[], found) {
-        let claim = claim(&entry, found);
-        match (entry.key, claim) {
-            (Side::Space, Some(claim)) => symmetry.space = claim,
-            (Side::Body, Some(claim)) => symmetry.body = claim,
-            (_, None) => {}
-        }
+    for entry in (List { name: "symmetry", found }).entries(list.stream(), list.span_close(), &[]) {
+        let (side, example) = match entry.key {
+            Side::Space => (&mut symmetry.space, "space = affine"),
+            Side::Body => (&mut symmetry.body, "body = metric"),
+        };
+        let claim = expected(entry, example, found).ok().and_then(|piece| member("claim", piece, found));
+        *side = claim.unwrap_or(*side);
     }
     Some(symmetry)
 }
 
-fn claim(entry: &Entry<Side>, found: &mut Diagnostics) -> Option<Spanned<Claim>> {
-    let piece = match &entry.body {
-        Body::Value(piece) if !piece.tokens.is_empty() => piece,
-        Body::Refused(_) => return None,
-        _ => {
-            let (key, example) = match entry.key {
-                Side::Space => ("space", "space = affine"),
-                Side::Body => ("body", "body = metric"),
-            };
-            found.report(entry.at, NotationMistake::ExpectedValue { key, example: example.to_owned() });
-            return None;
-        }
-    };
-    member("claim", piece.tokens.clone(), piece.at, found)
-}
-
-/// A list of terms: its key, the terms that belong to the other side, and a value that a term may have.
-struct TermList<K> {
-    name: &'static str,
-    elsewhere: &'static [&'static str],
-    example: fn(K) -> &'static str,
-}
-
-const KINETIC: TermList<TermKind> =
-    TermList { name: "kinetic", elsewhere: &MOMENTUM_TERMS, example: TermKind::example };
-const HAMILTONIAN: TermList<MomentumKind> =
-    TermList { name: "hamiltonian", elsewhere: &VELOCITY_TERMS, example: momentum_side::example };
-const DISSIPATION: TermList<TermKind> = TermList { name: "dissipation", ..KINETIC };
-
-/// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`.
-fn terms<K: Keyword>(
-    side: TermList<K>,
+/// `kinetic(...)`, `hamiltonian(...)` and `dissipation(...)`, with the values that terms may have; `Other` are those of the other
+/// side.
+fn terms<K: Keyword, Other: Named>(
+    (name, example): (&'static str, fn(K) -> &'static str),
     list: Result<Group, Reported>,
     key: Span,
     found: &mut Diagnostics,
 ) -> Result<Spanned<Vec<Term<K>>>, Reported> {
     let list = list?;
+    let mut elsewhere = Other::names();
+    elsewhere.retain(|name| K::named(name).is_none());
     let mut terms = Vec::new();
-    for entry in entries::<K>(side.name, list.stream(), list.span_close(), side.elsewhere, found) {
+    let entries = List { name, found }.entries::<K>(list.stream(), list.span_close(), &elsewhere);
+    for entry in entries {
         let kind = Spanned { value: entry.key, span: entry.at.into() };
-        match entry.body {
-            Body::Value(piece) if !piece.tokens.is_empty() => {
-                let span = piece.at;
-                if let Ok(value) = value::parse(piece, found) {
-                    terms.push(Term { kind, value, span });
-                }
-            }
-            Body::Refused(_) => {}
-            _ => {
-                let mistake = NotationMistake::ExpectedValue {
-                    key: entry.key.name(),
-                    example: format!("{} = {}", entry.key.name(), (side.example)(entry.key)),
-                };
-                found.report(entry.at, mistake);
-            }
+        let example = format!("{} = {}", entry.key.name(), example(entry.key));
+        let Ok(piece) = expected(entry, &example, found) else { continue };
+        let span = piece.at;
+        if let Ok(value) = value::parse(piece, found) {
+            terms.push(Term { kind, value, span });
         }
     }
     Ok(Spanned { value: terms, span: key.into() })
@@ -220,25 +185,15 @@ fn terms<K: Keyword>(
 fn both_metrics(list: Result<Group, Reported>, found: &mut Diagnostics) -> [Option<Metric>; 2] {
     let mut metrics = [None, None];
     let Ok(list) = list else { return metrics };
-    for entry in entries::<Side>("metrics", list.stream(), list.span_close(), &[], found) {
+    for entry in (List { name: "metrics", found }).entries(list.stream(), list.span_close(), &[]) {
         let (place, example) = match entry.key {
             Side::Space => (0, "space = diag(1, 1, 2)"),
             Side::Body => (1, "body = [[2, 1, 0], [1, 2, 0], [0, 0, 1]]"),
         };
         let side = entry.key.name();
-        match entry.body {
-            Body::Value(piece) if !piece.tokens.is_empty() => {
-                let span = piece.at;
-                metrics[place] = value::parse(piece, found).ok().map(|value| Metric { side, value, span });
-            }
-            Body::Refused(_) => {}
-            _ => {
-                found.report(
-                    entry.at,
-                    NotationMistake::ExpectedValue { key: side, example: example.to_owned() },
-                );
-            }
-        }
+        let Ok(piece) = expected(entry, example, found) else { continue };
+        let span = piece.at;
+        metrics[place] = value::parse(piece, found).ok().map(|value| Metric { side, value, span });
     }
     metrics
 }
@@ -282,14 +237,14 @@ fn members<T: Named + PartialEq>(
     let Ok(list) = list else { return Vec::new() };
     let mut members: Vec<Spanned<T>> = Vec::new();
     let name = if role == "capability" { Key::Emit.name() } else { Key::Require.name() };
-    for Piece { tokens, at } in items(name, list.stream(), list.span_close(), found) {
+    for Piece { tokens, at } in (List { name, found }).items(list.stream(), list.span_close()) {
         if let [TokenTree::Ident(first), second @ TokenTree::Ident(_), ..] = tokens.as_slice()
             && T::named(&first.to_string()).is_some()
         {
-            malformed(name, second, Meant::Unclear, found);
+            List { name, found }.malformed(second, Meant::Unclear);
             continue;
         }
-        let Some(member) = member::<T>(role, tokens, at, found) else { continue };
+        let Some(member) = member::<T>(role, Piece { tokens, at }, found) else { continue };
         if members.iter().any(|earlier| earlier.value == member.value) {
             found.report(at, NotationMistake::RepeatedKey { list: name, key: member.value.name() });
         } else {
@@ -300,18 +255,12 @@ fn members<T: Named + PartialEq>(
 }
 
 /// One name out of a closed set.
-fn member<T: Named>(
-    role: &'static str,
-    tokens: Vec<TokenTree>,
-    at: Region,
-    found: &mut Diagnostics,
-) -> Option<Spanned<T>> {
+fn member<T: Named>(role: &'static str, piece: Piece, found: &mut Diagnostics) -> Option<Spanned<T>> {
+    let Piece { tokens, at } = piece;
     let tokens = unwrapped(tokens);
-    let name: Option<&Ident> = match tokens.as_slice() {
-        [TokenTree::Ident(name)] => Some(name),
-        _ => None,
-    };
-    if let Some(value) = name.and_then(|name| T::named(&name.to_string())) {
+    if let [TokenTree::Ident(name)] = tokens.as_slice()
+        && let Some(value) = T::named(&name.to_string())
+    {
         return Some(Spanned { value, span: at });
     }
     let written = match tokens.as_slice() {

@@ -76,13 +76,8 @@ pub(super) fn written(mut ty: &Type) -> &Type {
 }
 
 pub(super) fn is_f64(path: &syn::Path) -> bool {
-    let names: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
-    let plain = path.segments.iter().all(|segment| segment.arguments.is_empty());
-    match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["f64"] => plain && path.leading_colon.is_none(),
-        ["core" | "std", "primitive", "f64"] => plain,
-        _ => false,
-    }
+    let path = path.to_token_stream().to_string().replace(' ', "");
+    path == "f64" || ["core::primitive::f64", "std::primitive::f64"].contains(&path.trim_start_matches("::"))
 }
 
 pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, Reported> {

@@ -1,7 +1,7 @@
 //! The words that arguments begin with, and how each may look.
 
 use super::momentum_side::MomentumKind;
-use super::names::{Named, named};
+use super::names::{Named, named, set_of_names};
 use crate::symbol::TermKind;
 
 /// A word that an argument begins with.
@@ -17,55 +17,30 @@ impl Keyword for TermKind {}
 impl Keyword for MomentumKind {}
 
 impl Keyword for Key {
+    /// As its example shows.
     fn takes_list(self) -> bool {
-        match self {
-            Self::Symmetry
-            | Self::Kinetic
-            | Self::Hamiltonian
-            | Self::Metrics
-            | Self::Dissipation
-            | Self::Require
-            | Self::Emit => true,
-            Self::Dim | Self::Constraint | Self::Group | Self::Potential | Self::Forces | Self::Crate => {
-                false
-            }
-        }
+        self.example().starts_with(&format!("{}(", self.name()))
     }
 }
 
-/// The keys of `affine_model(...)`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Key {
-    Dim,
-    Symmetry,
-    Kinetic,
-    Hamiltonian,
-    Metrics,
-    Constraint,
-    Group,
-    Potential,
-    Dissipation,
-    Forces,
-    Require,
-    Emit,
-    Crate,
+set_of_names! {
+    /// The keys of `affine_model(...)`.
+    pub(super) enum Key {
+        Dim = "dim",
+        Symmetry = "symmetry",
+        Kinetic = "kinetic",
+        Hamiltonian = "hamiltonian",
+        Metrics = "metrics",
+        Constraint = "constraint",
+        Group = "group",
+        Potential = "potential",
+        Dissipation = "dissipation",
+        Forces = "forces",
+        Require = "require",
+        Emit = "emit",
+        Crate = "crate",
+    }
 }
-
-named!(Key {
-    Dim: "dim",
-    Symmetry: "symmetry",
-    Kinetic: "kinetic",
-    Hamiltonian: "hamiltonian",
-    Metrics: "metrics",
-    Constraint: "constraint",
-    Group: "group",
-    Potential: "potential",
-    Dissipation: "dissipation",
-    Forces: "forces",
-    Require: "require",
-    Emit: "emit",
-    Crate: "crate",
-});
 
 impl Key {
     /// How an entry with it may look.
@@ -90,11 +65,10 @@ impl Key {
     }
 }
 
-/// The sides of `symmetry(...)`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    Space,
-    Body,
+set_of_names! {
+    /// The sides of `symmetry(...)`.
+    pub(super) enum Side {
+        Space = "space",
+        Body = "body",
+    }
 }
-
-named!(Side { Space: "space", Body: "body" });

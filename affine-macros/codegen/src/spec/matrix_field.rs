@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 use syn::{GenericArgument, PathArguments, PathSegment, Type};
 
 use super::item::{is_f64, written};
-use super::{Expression, ExpressionKind, Field, Spec, Symbol, Term, Value};
+use super::{Expression, ExpressionKind, Field, Metric, Spec, Symbol, Term, Value};
 
 /// How the entries of a field are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,34 +73,23 @@ impl Spec {
     /// Writes the entries of a field of matrix type where it stands alone as the value of a term or a metric. Anywhere
     /// else its name is left to be refused, since an expression is a number.
     pub(super) fn with_entries(mut self) -> Self {
-        let entries = |spec: &Self, value: &Value| match value {
-            Value::Scalar(Expression { kind: ExpressionKind::Symbol(name), span }) => {
-                match spec.resolve(name)? {
-                    Symbol::Field(field) => {
-                        Some(matrix(name, field.matrix()?.0, |kind| Expression { kind, span: *span }))
-                    }
-                    _ => None,
-                }
+        let entries = |spec: &Self, value: &mut Value| {
+            if let Value::Scalar(Expression { kind: ExpressionKind::Symbol(name), span }) = value
+                && let Some(Symbol::Field(field)) = spec.resolve(name)
+                && let Some((size, _)) = field.matrix()
+            {
+                *value = matrix(name, size, |kind| Expression { kind, span: *span });
             }
-            _ => None,
         };
-        let terms = |spec: &Self, list: &[Term]| -> Vec<Term> {
-            let list = list.iter().map(|term| {
-                let value = entries(spec, &term.value);
-                Term { value: value.unwrap_or_else(|| term.value.clone()), ..term.clone() }
-            });
-            list.collect()
-        };
-        (self.kinetic, self.dissipation) = (terms(&self, &self.kinetic), terms(&self, &self.dissipation));
-        let metrics = self.metrics.clone().map(|metric| {
-            let mut metric = metric?;
-            if let Some(value) = entries(&self, &metric.value) {
-                metric.value = value;
-            }
-            Some(metric)
-        });
-        self.metrics = metrics;
-        self
+        let [mut kinetic, mut dissipation] = [&mut self.kinetic, &mut self.dissipation].map(std::mem::take);
+        let mut metrics = std::mem::take(&mut self.metrics);
+        for Term { value, .. } in kinetic.iter_mut().chain(&mut dissipation) {
+            entries(&self, value);
+        }
+        for Metric { value, .. } in metrics.iter_mut().flatten() {
+            entries(&self, value);
+        }
+        Self { kinetic, dissipation, metrics, ..self }
     }
 
     /// The fields of matrix type that stand in coefficients, in the order of the struct.

@@ -1,35 +1,26 @@
 //! The names of `hamiltonian(...)`, the momentum-side statement.
 
-use super::names::{Named, named};
+use super::names::{Named, named, set_of_names};
 
-/// The kinds of terms of a Hamiltonian; `X` is `Sigma = phi Pi` or `Sigma_hat = Pi phi`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MomentumKind {
-    /// `a/2 tr X^2`.
-    Casimir2,
-    /// `b/2 (tr X)^2`.
-    Casimir1Squared,
-    /// `c/2 |Vort|^2`, `Vort = Sigma_hat - Sigma_hat^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
-    VorticitySquared,
-    /// `c/2 |S|^2`, `S = Sigma - Sigma^T`.
-    SpinSquared,
-    /// `k/2 |p_hat|^2`, `k = 1/m`.
-    BodyTranslation,
-    /// `k/2 |p|^2`, `k = 1/m`.
-    SpaceTranslation,
-    /// `c/3 tr X^3`, n = 3 only.
-    Casimir3,
+set_of_names! {
+    /// The kinds of terms of a Hamiltonian; `X` is `Sigma = phi Pi` or `Sigma_hat = Pi phi`.
+    pub enum MomentumKind {
+        /// `a/2 tr X^2`.
+        Casimir2 = "casimir2",
+        /// `b/2 (tr X)^2`.
+        Casimir1Squared = "casimir1_squared",
+        /// `c/2 |Vort|^2`, `Vort = Sigma_hat - Sigma_hat^T`, `|W|^2` the sum over `a < b` of `W_ab^2`.
+        VorticitySquared = "vorticity_squared",
+        /// `c/2 |S|^2`, `S = Sigma - Sigma^T`.
+        SpinSquared = "spin_squared",
+        /// `k/2 |p_hat|^2`, `k = 1/m`.
+        BodyTranslation = "body_translation",
+        /// `k/2 |p|^2`, `k = 1/m`.
+        SpaceTranslation = "space_translation",
+        /// `c/3 tr X^3`, n = 3 only.
+        Casimir3 = "casimir3",
+    }
 }
-
-named!(MomentumKind {
-    Casimir2: "casimir2",
-    Casimir1Squared: "casimir1_squared",
-    VorticitySquared: "vorticity_squared",
-    SpinSquared: "spin_squared",
-    BodyTranslation: "body_translation",
-    SpaceTranslation: "space_translation",
-    Casimir3: "casimir3",
-});
 
 impl MomentumKind {
     /// A kinetic energy of the centre of mass, in p?
@@ -43,10 +34,8 @@ pub(super) fn example(kind: MomentumKind) -> &'static str {
     match kind {
         MomentumKind::Casimir2 => "5/6",
         MomentumKind::Casimir1Squared => "-1/18",
-        MomentumKind::VorticitySquared => "25/24",
-        MomentumKind::SpinSquared => "25/24",
-        MomentumKind::BodyTranslation => "1/2",
-        MomentumKind::SpaceTranslation => "1/2",
+        MomentumKind::VorticitySquared | MomentumKind::SpinSquared => "25/24",
+        MomentumKind::BodyTranslation | MomentumKind::SpaceTranslation => "1/2",
         MomentumKind::Casimir3 => "0.1",
     }
 }

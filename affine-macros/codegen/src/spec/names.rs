@@ -37,27 +37,39 @@ macro_rules! named {
 }
 pub(super) use named;
 
-/// A group claimed to leave the kinetic energy unchanged, on one side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Claim {
-    /// GL(n).
-    Affine,
-    /// O(n).
-    Metric,
-    /// No claim.
-    None,
+/// A closed set of names, each member with its own.
+macro_rules! set_of_names {
+    ($(#[$about:meta])* $seen:vis enum $set:ident { $($(#[$of:meta])* $member:ident = $name:literal,)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        $seen enum $set {
+            $($(#[$of])* $member,)*
+        }
+
+        named!($set { $($member: $name),* });
+    };
+}
+pub(super) use set_of_names;
+
+set_of_names! {
+    /// A group claimed to leave the kinetic energy unchanged, on one side.
+    pub enum Claim {
+        /// GL(n).
+        Affine = "affine",
+        /// O(n).
+        Metric = "metric",
+        /// No claim.
+        None = "none",
+    }
 }
 
-named!(Claim { Affine: "affine", Metric: "metric", None: "none" });
-
-/// A group in place of GL(n, R) as the space of placements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlacementGroup {
-    /// U(n), the compact real form of GL(n, C).
-    Unitary,
+set_of_names! {
+    /// A group in place of GL(n, R) as the space of placements.
+    pub enum PlacementGroup {
+        /// U(n), the compact real form of GL(n, C).
+        Unitary = "unitary",
+    }
 }
-
-named!(PlacementGroup { Unitary: "unitary" });
 
 named!(Constraint { Isochoric: "isochoric", Rigid: "rigid", Conformal: "conformal" });
 
@@ -81,14 +93,13 @@ impl Constraint {
     }
 }
 
-/// A condition that the user wants enforced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Requirement {
-    /// T > 0 at every velocity that is not zero.
-    PositiveDefinite,
+set_of_names! {
+    /// A condition that the user wants enforced.
+    pub enum Requirement {
+        /// T > 0 at every velocity that is not zero.
+        PositiveDefinite = "positive_definite",
+    }
 }
-
-named!(Requirement { PositiveDefinite: "positive_definite" });
 
 named!(Capability {
     Splitting: "splitting",

@@ -89,10 +89,8 @@ impl Spec {
 
 /// A letter and one digit: no dimension has two.
 pub(crate) fn numbered(name: &str) -> Option<(char, usize)> {
-    let mut letters = name.chars();
-    let (letter, digit, end) = (letters.next()?, letters.next()?, letters.next());
-    if end.is_some() {
-        return None;
+    match name.chars().collect::<Vec<char>>().as_slice() {
+        [letter, digit] => Some((*letter, digit.to_digit(10)? as usize)),
+        _ => None,
     }
-    Some((letter, usize::try_from(digit.to_digit(10)?).ok()?))
 }

@@ -1,6 +1,6 @@
 //! Coefficients: a scalar, `diag(...)` or a nested matrix.
 
-use proc_macro2::{Delimiter, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenTree};
 
 use super::entries::{Piece, pieces, unwrapped};
 use super::expression::Expression;
@@ -13,15 +13,12 @@ pub(super) fn parse(piece: Piece, found: &mut Diagnostics) -> Result<Value, Repo
     let tokens = unwrapped(tokens);
     match tokens.as_slice() {
         [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
-            let rows = pieces(group.stream(), group.span_close()).into_iter().map(|piece| row(piece, found));
-            all(rows).map(Value::Matrix)
+            all(group, row, found).map(Value::Matrix)
         }
         [TokenTree::Ident(name), TokenTree::Group(group)]
             if name == "diag" && group.delimiter() == Delimiter::Parenthesis =>
         {
-            let entries =
-                pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found));
-            all(entries).map(Value::Diagonal)
+            all(group, entry, found).map(Value::Diagonal)
         }
         _ => expression_parser::parse(tokens, at, Language::Coefficient, found).map(Value::Scalar),
     }
@@ -33,9 +30,7 @@ fn row(piece: Piece, found: &mut Diagnostics) -> Result<Vec<Expression>, Reporte
         [first, second, ..] if is_row(first) && is_row(second) => {
             Err(found.report(second.span(), ExpressionMistake::MissingComma))
         }
-        [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => {
-            all(pieces(group.stream(), group.span_close()).into_iter().map(|piece| entry(piece, found)))
-        }
+        [TokenTree::Group(group)] if group.delimiter() == Delimiter::Bracket => all(group, entry, found),
         _ => Err(found.report(piece.at, ExpressionMistake::FlatMatrix)),
     }
 }
@@ -44,8 +39,13 @@ fn entry(piece: Piece, found: &mut Diagnostics) -> Result<Expression, Reported> 
     expression_parser::parse(piece.tokens, piece.at, Language::Coefficient, found)
 }
 
-/// Everything, or an error; the results are made before the first error is looked for, so that all are reported.
-fn all<T>(results: impl Iterator<Item = Result<T, Reported>>) -> Result<Vec<T>, Reported> {
-    let results: Vec<_> = results.collect();
+/// Everything between brackets, or an error; the results are made before the first error is looked for, so that all are reported.
+fn all<T>(
+    group: &Group,
+    one: fn(Piece, &mut Diagnostics) -> Result<T, Reported>,
+    found: &mut Diagnostics,
+) -> Result<Vec<T>, Reported> {
+    let results: Vec<_> =
+        pieces(group.stream(), group.span_close()).into_iter().map(|piece| one(piece, found)).collect();
     results.into_iter().collect()
 }

@@ -16,8 +16,7 @@ const FRACTION: u32 = 31;
 
 /// Energies whose forces are fractions of polynomials: `(tr G - 3)^2 + ..` and the like.
 fn energies(arena: &mut Arena) -> Vec<Expr> {
-    let [first, second, third] =
-        [Base::Trace, Base::TraceOfSquare, Base::TraceOfCube].map(|base| base.symbol(arena));
+    let [first, second, third] = [1, 2, 3].map(|power| Base::Trace(power).symbol(arena));
     let q = Base::MeanLogStretch.symbol(arena);
     let mut volume = |k: i64| {
         let argument = arena.scale(q, &Rational::from(3 * k));

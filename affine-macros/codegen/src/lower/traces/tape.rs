@@ -181,10 +181,6 @@ fn has_matrix(part: &Expression) -> bool {
     }
 }
 
-pub(super) fn transposed(matrix: &Square<Expr>) -> Square<Expr> {
-    table(matrix.len(), |a, b| matrix[b][a])
-}
-
 /// The product of two matrices, whose entries stay sums of products; of a symmetric one each pair is one entry.
 pub(super) fn times(arena: &mut Arena, left: &Square<Expr>, right: &Square<Expr>) -> Square<Expr> {
     let n = left.len();

@@ -3,9 +3,22 @@
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
 
-/// What a model may conserve, named as in the runtime.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Candidate {
+/// An enumeration of candidates, and a list of them in this order.
+macro_rules! candidates {
+    ($($(#[$of:meta])* $candidate:ident,)*) => {
+        /// What a model may conserve, named as in the runtime.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Candidate {
+            $($(#[$of])* $candidate,)*
+        }
+
+        impl Candidate {
+            const ALL: &[Self] = &[$(Self::$candidate),*];
+        }
+    };
+}
+
+candidates! {
     /// Energy `H`.
     Energy,
     /// `p`
@@ -61,29 +74,6 @@ impl Candidate {
         }
     }
 
-    const ALL: [Candidate; 20] = [
-        Candidate::Energy,
-        Candidate::LinearMomentum,
-        Candidate::ComovingLinearMomentum,
-        Candidate::OrbitalAngularMomentum,
-        Candidate::TotalAffineMomentum,
-        Candidate::TotalAngularMomentum,
-        Candidate::AffineSpin,
-        Candidate::Deviator,
-        Candidate::Spin,
-        Candidate::SpinNorm,
-        Candidate::ComovingAffineSpin,
-        Candidate::ComovingDeviator,
-        Candidate::Vorticity,
-        Candidate::VorticityNorm,
-        Candidate::CanonicalMomentum,
-        Candidate::Casimir1,
-        Candidate::Casimir2,
-        Candidate::Casimir3,
-        Candidate::DeviatorCasimir2,
-        Candidate::DeviatorCasimir3,
-    ];
-
     /// Does the quantity exist for a model of this dimension, with or without translation?
     pub(super) fn exists(self, dim: usize, translation: bool) -> bool {
         match self {
@@ -123,5 +113,5 @@ pub fn candidates(chart: &Chart) -> Vec<Candidate> {
         c.exists(chart.dim, chart.linear.is_some())
             && chart.confined.is_none_or(|group| c.means_something(group))
     };
-    Candidate::ALL.into_iter().filter(exists).collect()
+    Candidate::ALL.iter().copied().filter(exists).collect()
 }

@@ -3,7 +3,7 @@
 use crate::algebra::Rational;
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::Ring;
+use crate::algebra::ring::{Ring, dot};
 use crate::algebra::span::{Span, whole_multiple};
 
 use crate::mechanics::group_point::POINTS;
@@ -129,7 +129,9 @@ impl Rates {
         let mut span = Span::default();
         until_nothing_is_new(|seed| {
             let momenta = values(seed);
-            span.insert(&vectors.iter().map(|vector| dot(vector, momenta.list())).collect::<Vec<_>>())
+            span.insert(
+                &vectors.iter().map(|vector| dot(vector.iter().zip(momenta.list()))).collect::<Vec<_>>(),
+            )
         });
         let combined = |factors: Vec<Residue>| {
             let mut sum = vec![Residue::ZERO; self.layout.len()];
@@ -147,10 +149,6 @@ impl Rates {
         combination.iter().for_each(|(factor, place)| vector[*place].plus(&one, &Rational::from(*factor)));
         vector
     }
-}
-
-fn dot(a: &[Residue], b: &[Residue]) -> Residue {
-    a.iter().zip(b).fold(Residue::ZERO, |sum, (a, b)| sum.add(&a.mul(b)))
 }
 
 /// Asks at points modulo a prime, the first of which is 0, until as many as decide told nothing new one after another.

@@ -116,13 +116,7 @@ impl Layout {
             Candidate::Vorticity => self.skew(&[sigma_hat]),
             Candidate::CanonicalMomentum => self.matrix(&[pi]),
             Candidate::Casimir1 => vec![((1, 1), self.trace(sigma))],
-            Candidate::Energy
-            | Candidate::SpinNorm
-            | Candidate::VorticityNorm
-            | Candidate::Casimir2
-            | Candidate::Casimir3
-            | Candidate::DeviatorCasimir2
-            | Candidate::DeviatorCasimir3 => Vec::new(),
+            _ => Vec::new(),
         }
     }
 

@@ -1,17 +1,24 @@
-//! The value of a potential at a point, without cancellation near the undeformed state.
+//! The value of a potential at a point, without cancellation near the undeformed state; and far from it, through `D` and the
+//! isochoric part of the placement.
 
+use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
-use crate::algebra::ring::pairs;
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::ring::{dot, upper};
+use crate::algebra::substitute::listed;
+use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
 use crate::symbol::Quantity;
 
 use super::Potential;
 use super::base::Base;
-use super::rewriting::about_undeformed;
-use super::sums::Sums;
-use super::tensors::{definitions, green};
+use super::rewriting::{about_undeformed, exponential_of_dilatation, multiple_of_logarithm};
+use super::scaled::{self, collected, scaled_bases};
+use super::sums::{Sizes, Sums};
+use super::tensors::{definitions, green, own};
+
+/// Energies are multiplied out up to so many terms.
+const MOST_TERMS: u32 = 256;
 
 impl Potential {
     /// `U` for evaluation at a point, with what it shares; `q` is an input. Near the undeformed state nothing
@@ -32,6 +39,37 @@ impl Potential {
         (!values.is_empty()).then(|| self.at_a_point(arena, chart, &values))
     }
 
+    /// `U` for evaluation far from the undeformed state, with what it shares; `q`, `q_a` and `D` are inputs. `None` where
+    /// [`energy_at_a_point`](Self::energy_at_a_point) is as good there: it is not with exponentials of logarithms, nor with
+    /// logarithms that `q` is the opposite of.
+    pub fn energy_far_away(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Definitions)> {
+        let q = Base::MeanLogStretch.symbol(arena);
+        let exponential =
+            |function, of: Expr| function == Function::Exp && multiple_of_logarithm(arena, of).is_some();
+        let logarithm = |function, _| function == Function::Ln;
+        let differs = applies(arena, self.energy, &exponential)
+            || applies(arena, self.energy, &logarithm)
+                && arena.any_symbol(self.energy, &mut |symbol| symbol == q);
+        if !differs {
+            return None;
+        }
+        let d = arena.symbol(Quantity::Dilatation);
+        let energy = exponential_of_dilatation(arena, self.energy);
+        let scaled = scaled_bases(arena, self.dim, d);
+        let energy = arena.substitute(energy, &listed(&scaled))?;
+        let inverse = arena.pow(d, -1)?;
+        let mut shared = scaled::definitions(arena, chart, inverse);
+        let mut sums = Sums::default();
+        let named = sums.named(arena, energy);
+        // A power of `D` in a sum may have to cancel one beside it.
+        let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
+        if scaled && Sizes::default().of(arena, energy) <= MOST_TERMS {
+            return Some((collected(arena, energy, d), shared));
+        }
+        shared.extend(sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))));
+        Some((collected(arena, named, d), shared))
+    }
+
     /// The same of any functions of the placement, of `x` and of the time.
     fn at_a_point(
         &self,
@@ -48,55 +86,47 @@ impl Potential {
             })
             .collect();
         let n = Rational::whole(self.dim);
-        let mut shared = definitions(arena, self.dim, chart);
+        let mut shared = definitions(arena, &chart.placement(), own(chart), false);
         let (excesses, strains) = strain_traces(arena, chart);
         shared.extend(excesses);
         let mut moved = Vec::new();
-        for (base, power, strain) in [(Base::Trace, 1, &strains[0]), (Base::TraceOfSquare, 2, &strains[1])] {
+        for (power, strain) in [1, 2].into_iter().zip(strains) {
             let excess = arena.symbol(Quantity::Strain.at([power]));
-            shared.push((excess, strain.clone()));
-            let mut value = Polynomial::atom(excess);
-            value.add_term(Vec::new(), &n);
-            moved.push((base.symbol(arena), value));
+            shared.push((excess, strain));
+            let value = Polynomial::atom(excess).add(&Polynomial::constant(n.clone()));
+            moved.push((Base::Trace(power).symbol(arena), value));
         }
-        let value = |atom: Expr| moved.iter().find(|(s, _)| *s == atom).map(|(_, v)| v.clone());
         let forms = sums.forms(arena).into_iter();
-        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&value))));
+        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&moved)))));
         let values = named.into_iter().map(|value| Polynomial::normal_form(arena, value));
-        (values.map(|form| form.substitute(&value)).collect(), shared)
+        (values.map(|form| form.substitute(&listed(&moved))).collect(), shared)
     }
 }
 
 /// `tr G - n` and `tr G^2 - n` without cancellation near `phi = 1`: with `H = phi - 1`, a difference without rounding
 /// there, `F = G - 1 = H + H^T + H^T H`, and they are `tr F` and `tr F^2 + 2 tr F`.
-fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Vec<(Expr, Polynomial)>, [Polynomial; 2]) {
+fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Definitions, [Polynomial; 2]) {
     let n = chart.dim;
     let mut shared = Vec::new();
-    let mut excess = vec![vec![Polynomial::zero(); n]; n];
-    for (i, a) in pairs(n) {
-        excess[i][a] = Polynomial::atom(chart.phi.0[i][a]);
-        if i == a {
-            let symbol = arena.symbol(Quantity::Excess.at([i + 1]));
-            let mut difference = excess[i][a].clone();
-            difference.add_term(Vec::new(), &Rational::MINUS_ONE);
-            shared.push((symbol, difference));
-            excess[i][a] = Polynomial::atom(symbol);
-        }
+    let mut excess = chart.placement();
+    for (a, symbol) in arena.components(Quantity::Excess, n).into_iter().enumerate() {
+        shared.push((symbol, excess[a][a].sub(&Polynomial::constant(Rational::ONE))));
+        excess[a][a] = Polynomial::atom(symbol);
     }
-    let (mut trace, mut of_square) = (Polynomial::zero(), Polynomial::zero());
-    for (a, b) in pairs(n) {
-        let symbol = arena.symbol(Quantity::Strain.at([a.min(b) + 1, a.max(b) + 1]));
-        if a <= b {
-            let mut strain = green(&excess, a, b);
-            strain.add_scaled(&excess[a][b], &Rational::ONE);
-            strain.add_scaled(&excess[b][a], &Rational::ONE);
-            shared.push((symbol, strain));
-        }
-        of_square.add_term(vec![symbol, symbol], &Rational::ONE);
-        if a == b {
-            trace.add_term(vec![symbol], &Rational::ONE);
-        }
+    let strain = Matrix::symmetric(arena, Quantity::Strain, n);
+    for (a, b) in upper(n) {
+        let value = green(&excess, a, b).add(&excess[a][b]).add(&excess[b][a]);
+        shared.push((strain.0[a][b], value));
     }
-    of_square.add_scaled(&trace, &Rational::from(2));
+    let strain = strain.atoms();
+    let trace: Polynomial = (0..n).map(|a| &strain[a][a]).sum();
+    let of_square = dot(strain.iter().flatten().map(|entry| (entry, entry)));
+    let of_square = of_square.add(&trace.scaled(&Rational::from(2)));
     (shared, [trace, of_square])
+}
+
+/// Does it contain a function of an argument that is `wanted`?
+fn applies(arena: &Arena, expr: Expr, wanted: &dyn Fn(Function, Expr) -> bool) -> bool {
+    let own = matches!(*arena.node(expr), Node::Function(function, argument) if wanted(function, argument));
+    own || arena.any_part(expr, &mut |part| applies(arena, part, wanted))
 }

@@ -1,7 +1,9 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
 use crate::algebra::ring::pairs;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::symmetry::Side;
 use crate::mechanics::two_polar::{Lattice, Variables};
 use crate::symbol::Quantity;
@@ -15,13 +17,13 @@ use super::sums::Sums;
 #[derive(Clone, Debug)]
 pub struct OnAxes {
     /// What the forces share.
-    pub shared: Vec<(Expr, Polynomial)>,
+    pub shared: Definitions,
     /// `-dU/dq_a` or `-dU/dQ_a`.
     pub forces: Vec<Polynomial>,
     /// `U`, counted from the undeformed state.
     pub energy: Polynomial,
     /// What the energy shares.
-    pub energy_shared: Vec<(Expr, Polynomial)>,
+    pub energy_shared: Definitions,
 }
 
 impl Potential {
@@ -80,12 +82,11 @@ impl Potential {
         let energy = diagonal(arena, self.energy);
         let energy = about_undeformed(arena, energy);
         let counted = counted_from_undeformed(arena, lattice, &mut axes.energy_shared);
-        let value = |atom: Expr| counted.iter().find(|(symbol, _)| *symbol == atom).map(|(_, p)| p.clone());
         let mut sums = Sums::default();
         let energy = sums.named(arena, energy);
-        axes.energy = Polynomial::normal_form(arena, energy).substitute(&value);
+        axes.energy = Polynomial::normal_form(arena, energy).substitute(&listed(&counted));
         let forms = sums.forms(arena).into_iter();
-        axes.energy_shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&value))));
+        axes.energy_shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&counted)))));
         axes.energy_shared.extend(definitions);
         axes
     }
@@ -94,20 +95,17 @@ impl Potential {
 impl OnAxes {
     /// Forces on SL(n), where the sum of the momenta vanishes: each less their mean.
     pub fn keep_volume(&mut self) {
-        let mut mean = Polynomial::zero();
-        let nth = Rational::one_over(self.forces.len());
-        self.forces.iter().for_each(|force| mean.add_scaled(force, &nth));
+        let sum: Polynomial = self.forces.iter().sum();
+        let mean = sum.scaled(&Rational::one_over(self.forces.len()));
         self.forces.iter_mut().for_each(|force| force.add_scaled(&mean, &Rational::MINUS_ONE));
     }
 }
 
 /// Symbols of entries beside the diagonal.
 fn off_diagonal(arena: &mut Arena, n: usize) -> Vec<Expr> {
+    let bases = |(a, b)| [Base::Green(a, b), Base::Finger(a, b), Base::Placement(a, b)];
     let pairs = pairs(n).filter(|(a, b)| a != b);
-    pairs
-        .flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b), Base::Placement(a, b)])
-        .map(|base| base.symbol(arena))
-        .collect()
+    pairs.flat_map(bases).map(|base| base.symbol(arena)).collect()
 }
 
 /// The derivative of a base function by a place, divided by the number that its slope carries.
@@ -128,43 +126,32 @@ fn along_axis(
     match base {
         Base::MeanLogStretch => power(0, 1),
         Base::LogStretch(k) if k == a => power(0, 1),
-        Base::Trace => power(2, 1),
-        Base::TraceOfSquare => power(4, 1),
-        Base::TraceOfCube => power(6, 1),
+        Base::Trace(_) => power(base.degree(), 1),
         Base::Green(c, d) | Base::Finger(c, d) if c == a && d == a => power(2, 2),
         Base::Placement(c, d) if c == a && d == a => power(1, 1),
-        Base::LogStretch(_)
-        | Base::Green(..)
-        | Base::Finger(..)
-        | Base::Placement(..)
-        | Base::Position(_) => Polynomial::zero(),
+        // The others do not move with this place.
+        _ => Polynomial::zero(),
     }
 }
 
 /// Base functions through the places.
-fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<(Expr, Polynomial)> {
+fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Definitions {
     let n = lattice.dim;
     let nth = Rational::one_over(n);
-    let mut list = Vec::new();
-    let (mut trace, mut of_square, mut of_cube) =
-        (Polynomial::zero(), Polynomial::zero(), Polynomial::zero());
+    let (mut list, mut squares) = (Vec::new(), Vec::new());
     for (a, stretch) in stretches.iter().enumerate() {
         let inverse = arena.symbol(Quantity::InverseStretch.at([a + 1]));
         // A symbol is not the number zero.
         list.push((inverse, Polynomial::atom(arena.reciprocal(*stretch))));
         let square = arena.symbol(Quantity::StretchSquared.at([a + 1]));
         list.push((square, Polynomial::monomial([*stretch, *stretch])));
-        trace.add_term(vec![square], &Rational::ONE);
-        of_square.add_term(vec![square, square], &Rational::ONE);
-        of_cube.add_term(vec![square, square, square], &Rational::ONE);
+        squares.push(Polynomial::atom(square));
         for base in [Base::Green(a, a), Base::Finger(a, a)] {
             list.push((base.symbol(arena), Polynomial::atom(square)));
         }
         list.push((Base::Placement(a, a).symbol(arena), Polynomial::atom(*stretch)));
     }
-    list.push((Base::Trace.symbol(arena), trace));
-    list.push((Base::TraceOfSquare.symbol(arena), of_square));
-    list.push((Base::TraceOfCube.symbol(arena), of_cube));
+    list.extend(traces(arena, &squares));
     let [q, d, inverse_d] =
         arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
     match lattice.variables {
@@ -195,16 +182,9 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Vec<
     list
 }
 
-/// `tr G = n + sum f_a`, `tr G^2 = n + sum f_a (2 + f_a)`, `tr G^3` likewise with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
-fn counted_from_undeformed(
-    arena: &mut Arena,
-    lattice: &Lattice,
-    shared: &mut Vec<(Expr, Polynomial)>,
-) -> Vec<(Expr, Polynomial)> {
-    let n = Rational::whole(lattice.dim);
-    let (mut trace, mut of_square, mut of_cube) =
-        (Polynomial::constant(n.clone()), Polynomial::constant(n.clone()), Polynomial::constant(n));
-    let mut list = Vec::new();
+/// `tr G^k = sum (1 + f_a)^k` multiplied out, with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
+fn counted_from_undeformed(arena: &mut Arena, lattice: &Lattice, shared: &mut Definitions) -> Definitions {
+    let (mut list, mut squares) = (Vec::new(), Vec::new());
     for (a, place) in lattice.q.iter().enumerate() {
         let strain = arena.symbol(Quantity::Strain.at([a + 1]));
         let value = match lattice.variables {
@@ -224,20 +204,22 @@ fn counted_from_undeformed(
             }
         };
         shared.push((strain, value));
-        trace.add_term(vec![strain], &Rational::ONE);
-        of_square.add_term(vec![strain], &Rational::from(2));
-        of_square.add_term(vec![strain, strain], &Rational::ONE);
-        of_cube.add_term(vec![strain], &Rational::from(3));
-        of_cube.add_term(vec![strain, strain], &Rational::from(3));
-        of_cube.add_term(vec![strain, strain, strain], &Rational::ONE);
-        let mut square = Polynomial::constant(Rational::ONE);
-        square.add_term(vec![strain], &Rational::ONE);
+        let square = Polynomial::constant(Rational::ONE).add(&Polynomial::atom(strain));
         for base in [Base::Green(a, a), Base::Finger(a, a)] {
             list.push((base.symbol(arena), square.clone()));
         }
+        squares.push(square);
     }
-    list.push((Base::Trace.symbol(arena), trace));
-    list.push((Base::TraceOfSquare.symbol(arena), of_square));
-    list.push((Base::TraceOfCube.symbol(arena), of_cube));
+    list.extend(traces(arena, &squares));
     list
+}
+
+/// `tr G^k`, the sums of powers of these `Q_a^2`.
+fn traces(arena: &mut Arena, squares: &[Polynomial]) -> Definitions {
+    let mut powers = vec![Polynomial::constant(Rational::ONE); squares.len()];
+    let mut trace = |base: Base| {
+        powers.iter_mut().zip(squares).for_each(|(power, square)| *power = power.mul(square));
+        (base.symbol(arena), powers.iter().sum())
+    };
+    Base::TRACES.map(&mut trace).into()
 }

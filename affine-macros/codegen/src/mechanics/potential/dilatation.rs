@@ -24,7 +24,7 @@ impl Potential {
                 Base::Position(_) => {}
                 // The axes of single stretches are those of phi, not of Psi.
                 Base::LogStretch(_) => return None,
-                _ => terms.push((arena.mul(partial, symbol), Rational::from(i64::from(base.degree())))),
+                _ => terms.push((arena.mul(partial, symbol), Rational::whole(base.degree()))),
             }
         }
         let slope = arena.linear(&terms);
@@ -143,7 +143,7 @@ mod tests {
         // kappa/2 sinh(q)^2 + 3/10 tr G: nothing of q is left.
         let sum = Sum::new()
             .plus(&[(kappa(), 1), (Factor::Sinh, 2)], (1, 2))
-            .plus(&[(base(Base::Trace), 1)], (3, 10));
+            .plus(&[(base(Base::Trace(1)), 1)], (3, 10));
         let (slope, rest) = sum.own().unwrap();
         assert!(matches!(slope, Slope::Hyperbolic { scale: Rational::ONE, .. }), "{slope:?}");
         assert_eq!(rest, 1);
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn the_stiffest_is_taken_and_what_binds() {
-        let trace = || Sum::new().plus(&[(base(Base::Trace), 1)], (1, 1));
+        let trace = || Sum::new().plus(&[(base(Base::Trace(1)), 1)], (1, 1));
         let sum = trace().plus(&[(base(Base::MeanLogStretch), 2)], (3, 2)).plus(&[(Factor::Sinh, 2)], (5, 1));
         assert_eq!(sum.own(), Some((hyperbolic(number(10)), 2)));
         let sum =

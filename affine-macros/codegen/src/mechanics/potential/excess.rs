@@ -1,7 +1,9 @@
 //! `tr(G/D^2) - n`, of second order in the strain, without the cancellation to second order.
 
-use crate::algebra::ring::{Ring, Square, adjugate, pairs};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::rational::exponent;
+use crate::algebra::ring::{Square, determinant, dot, upper};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::metric::Definitions;
 use crate::symbol::Quantity;
 
 /// The symbol of `tr(G/D^2) - n`.
@@ -20,15 +22,13 @@ pub(super) struct Isochoric {
 impl Isochoric {
     /// A sum in which the trace is counted from `n`, through that difference as one quantity; `None` for any other sum.
     pub(super) fn through_excess(&self, arena: &mut Arena, form: &Polynomial) -> Option<Polynomial> {
+        let (trace, one) = (Polynomial::monomial(self.trace.clone()), Polynomial::constant(Rational::ONE));
         let coefficient = |wanted: &Polynomial| {
-            let monomial = wanted.terms().next().map(|(monomial, _)| monomial.clone())?;
-            form.terms().find(|(m, _)| **m == monomial).map(|(_, c)| c)
+            let (monomial, _) = wanted.terms().next()?;
+            form.terms().find(|(m, _)| *m == monomial).map(|(_, c)| c)
         };
-        let (trace, one) =
-            (Polynomial::term(self.trace.clone(), Rational::ONE), Polynomial::constant(Rational::ONE));
         let (slope, constant) = (coefficient(&trace)?, coefficient(&one)?);
-        let size = Rational::from(i64::try_from(self.deviator.len()).ok()?);
-        if *constant != -&(slope * &size) {
+        if *constant != -&(slope * &Rational::whole(self.deviator.len())) {
             return None;
         }
         let mut result = form.clone();
@@ -44,39 +44,32 @@ impl Isochoric {
     /// n = 2   tau^2 - 1 = tr(B^2)/2                     n (tau - 1) = tr(B^2)/(tau + 1)
     /// n = 3   tau^3 - 1 = tau tr(B^2)/2 - det B         n (tau - 1) = 3 (tau tr(B^2)/2 - det B)/(tau^2 + tau + 1)
     /// ```
-    pub(super) fn definitions(&self, arena: &mut Arena) -> Vec<(Expr, Polynomial)> {
+    pub(super) fn definitions(&self, arena: &mut Arena) -> Definitions {
         let n = self.deviator.len();
-        let nth = Rational::one_over(n);
-        let (mean, mut list) = (mean_square(arena), Vec::new());
-        list.push((mean, Polynomial::term(self.trace.clone(), nth)));
-        let mut deviator: Square<Polynomial> = vec![vec![Polynomial::zero(); n]; n];
-        let mut square = Polynomial::zero();
-        for (a, b) in pairs(n) {
-            let entry = arena.symbol(Quantity::IsochoricDeviator.at([a.min(b) + 1, a.max(b) + 1]));
-            if a <= b {
-                list.push((entry, self.deviator[a][b].clone()));
-            }
-            deviator[a][b] = Polynomial::atom(entry);
-            square.add_term(vec![entry, entry], &Rational::ONE);
-        }
+        let mean = mean_square(arena);
+        let mut list = vec![(mean, Polynomial::term(self.trace.clone(), Rational::one_over(n)))];
+        let symbols = Matrix::symmetric(arena, Quantity::IsochoricDeviator, n);
+        list.extend(upper(n).map(|(a, b)| (symbols.0[a][b], self.deviator[a][b].clone())));
+        let deviator = symbols.atoms();
         let of_square = arena.symbol(Quantity::IsochoricDeviatorSquared);
-        list.push((of_square, square));
-        let one = arena.constant(Rational::ONE);
-        let mut powers = vec![(one, Rational::ONE), (mean, Rational::ONE)];
+        list.push((of_square, dot(deviator.iter().flatten().map(|entry| (entry, entry)))));
         let mut above = Polynomial::atom(of_square);
         if n == 3 {
-            powers.push((arena.power(mean, 2), Rational::ONE));
             above = Polynomial::term(vec![mean, of_square], &Rational::from(3) * &Rational::HALF);
-            for (entry, row) in deviator[0].iter().zip(adjugate(&deviator)) {
-                above.plus_product(entry, &row[0], &Rational::from(-3));
-            }
+            above.add_scaled(&determinant(&deviator), &Rational::from(-3));
         }
-        let below = arena.linear(&powers);
-        // A sum of squares and one.
-        let reciprocal = arena.reciprocal(below);
-        list.push((symbol(arena), above.mul(&Polynomial::atom(reciprocal))));
+        let over = over_powers(arena, mean, n);
+        list.push((symbol(arena), above.mul(&Polynomial::atom(over))));
         list
     }
+}
+
+/// `1/(1 + x + .. + x^(n - 1)) = (x - 1)/(x^n - 1)` of what is positive.
+pub(super) fn over_powers(arena: &mut Arena, x: Expr, n: usize) -> Expr {
+    let powers: Vec<_> = (0..n).map(|k| (arena.power(x, exponent(k)), Rational::ONE)).collect();
+    let sum = arena.linear(&powers);
+    // A sum of powers and one.
+    arena.reciprocal(sum)
 }
 
 /// The symbol of `tr(G/D^2)/n`.

@@ -10,9 +10,9 @@ use crate::mechanics::conserved::{Candidate, Momenta};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::group_point::{GroupPoint, POINTS, inverse};
 use crate::mechanics::symmetry::Side;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
-use super::base::{Along, Base};
+use super::base::Base;
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
 use super::tensors::{Tensors, direction, finger, green};
@@ -48,7 +48,7 @@ impl Evidence {
         let phi = table(n, |i, a| point.value(&Quantity::Placement.at([i + 1, a + 1])));
         let tensors = tensors(&point, phi.clone());
         let slopes = self.slopes_at(arena, &point, &tensors);
-        let along = |along: Along| {
+        let along = |along: Frame| {
             let derivative = table(n, |a, b| {
                 let mut sum = Residue::ZERO;
                 for (base, slope) in &slopes {
@@ -64,11 +64,11 @@ impl Evidence {
         };
         let centre: Vec<Residue> = (0..n).map(position).collect();
         let x: Vec<Residue> = (1..=n).map(|i| point.value(&Quantity::Position.at([i]))).collect();
-        let space = along(Along::Space);
+        let space = along(Frame::Space);
         let moved = (centre.as_slice(), times(&transpose(&phi), &centre), outer(&x, &centre));
         Momenta::new(
             Some((moved.0, &moved.1, &moved.2)),
-            [&space, &along(Along::Body), &product(&inverse(&phi), &space)],
+            [&space, &along(Frame::Body), &product(&inverse(&phi), &space)],
         )
     }
 
@@ -97,11 +97,6 @@ impl Evidence {
     /// Do the derivatives vanish that would change the candidate?
     pub(super) fn keeps(&self, candidate: Candidate) -> bool {
         self.points.iter().all(|point| point.keep(candidate))
-    }
-
-    /// Do the derivatives with respect to the placement vanish?
-    pub(super) fn moves_no_placement(&self) -> bool {
-        self.keeps(Candidate::AffineSpin)
     }
 
     /// The first rotation, of space or body, along which the energy changes; its plane.

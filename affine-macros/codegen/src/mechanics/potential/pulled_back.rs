@@ -1,12 +1,14 @@
 //! `x . Ct x = |y|^2` with the position pulled back to the body, `y = phi^T x`: energies of tides and of gravity gradients are
 //! functions of it, and their forces `c x y^T` and `c phi y` need none of the entries of `Ct`.
 
-use crate::algebra::ring::upper;
+use crate::algebra::ring::{dot, times, transpose, upper};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
-use crate::symbol::Quantity;
+use crate::mechanics::metric::Definitions;
+use crate::symbol::{Frame, Quantity};
 
-use super::base::{Along, Base};
+use super::base::Base;
+use super::tensors::symbols;
 
 /// The vectors and the number of an energy that has the entries of `Ct` in `x . Ct x` alone.
 pub(super) struct PulledBack {
@@ -45,51 +47,34 @@ impl PulledBack {
 
     /// The polynomial through these quantities instead of the entries of `Ct`.
     pub(super) fn through(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
-        let mut square = Polynomial::zero();
-        let mut names = Vec::new();
-        for (i, x) in self.x.iter().enumerate() {
-            let row = self.pushed_forward(arena, i);
-            square.add_product(&Polynomial::atom(*x), &row, &Rational::ONE);
-            names.push((Polynomial::atom(self.pushed[i]), row));
-        }
+        let x = atoms(&self.x);
+        let rows = times(&symbols(arena, x.len(), Base::Finger, false), &x);
         // The rows stand in the square.
-        names.insert(0, (Polynomial::atom(self.square), square));
+        let mut names = vec![(Polynomial::atom(self.square), dot(x.iter().zip(&rows)))];
+        names.extend(atoms(&self.pushed).into_iter().zip(rows));
         form.by_names(&names)
     }
 
-    /// `(Ct x)_i`.
-    fn pushed_forward(&self, arena: &mut Arena, i: usize) -> Polynomial {
-        self.x
-            .iter()
-            .enumerate()
-            .map(|(j, x)| Polynomial::monomial([Base::Finger(i, j).symbol(arena), *x]))
-            .sum()
-    }
-
     /// What the quantities stand for.
-    pub(super) fn definitions(&self, chart: &Chart) -> Vec<(Expr, Polynomial)> {
-        let product = |left: Expr, right: Expr| Polynomial::monomial([left, right]);
-        let sum = |terms: &mut dyn Iterator<Item = Polynomial>| terms.sum();
-        let phi = &chart.phi.0;
-        let n = chart.dim;
-        let mut list = Vec::new();
-        for a in 0..n {
-            list.push((self.y[a], sum(&mut (0..n).map(|i| product(phi[i][a], self.x[i])))));
-        }
-        for i in 0..n {
-            list.push((self.pushed[i], sum(&mut (0..n).map(|a| product(phi[i][a], self.y[a])))));
-        }
-        list.push((self.square, sum(&mut self.y.iter().map(|y| product(*y, *y)))));
+    pub(super) fn definitions(&self, chart: &Chart) -> Definitions {
+        let (phi, x, y) = (chart.placement(), atoms(&self.x), atoms(&self.y));
+        let mut list: Definitions = self.y.iter().copied().zip(times(&transpose(&phi), &x)).collect();
+        list.extend(self.pushed.iter().copied().zip(times(&phi, &y)));
+        list.push((self.square, dot(y.iter().zip(&y))));
         list
     }
 
     /// Half of the derivative of `x . Ct x` along the group, as the vectors of whose entries it has the products.
-    pub(super) fn direction(&self, along: Along) -> [&[Expr]; 2] {
+    pub(super) fn direction(&self, along: Frame) -> [&[Expr]; 2] {
         match along {
-            Along::Body => [&self.y, &self.y],
-            Along::Space => [&self.pushed, &self.x],
+            Frame::Body => [&self.y, &self.y],
+            Frame::Space => [&self.pushed, &self.x],
             // Indices of `Pi_Ai`.
-            Along::Placement => [&self.y, &self.x],
+            Frame::Flat => [&self.y, &self.x],
         }
     }
+}
+
+fn atoms(symbols: &[Expr]) -> Vec<Polynomial> {
+    symbols.iter().copied().map(Polynomial::atom).collect()
 }

@@ -113,15 +113,15 @@ fn rewritten_once(arena: &mut Arena, expr: Expr, value: &Better, done: &mut FxHa
     if let Some(done) = done.get(&expr) {
         return *done;
     }
+    let known = |arena: &mut Arena, base: Expr, exponent: i32| match *arena.node(base) {
+        Node::Function(function, argument) => value(arena, function, argument, exponent),
+        _ => None,
+    };
     let rewritten = match arena.node(expr).clone() {
         Node::Product(factors) => {
             let mut product = Vec::new();
             for (base, exponent) in factors {
-                let known = match *arena.node(base) {
-                    Node::Function(function, argument) => value(arena, function, argument, exponent),
-                    _ => None,
-                };
-                product.push(match known {
+                product.push(match known(arena, base, exponent) {
                     Some(power) => (power, 1),
                     None => (rewritten_once(arena, base, value, done), exponent),
                 });
@@ -129,15 +129,9 @@ fn rewritten_once(arena: &mut Arena, expr: Expr, value: &Better, done: &mut FxHa
             // The bases were not the number zero, and keep their values.
             arena.certain_product(&product)
         }
-        node => {
-            let known = match node {
-                Node::Function(function, argument) => value(arena, function, argument, 1),
-                _ => None,
-            };
-            known.unwrap_or_else(|| {
-                arena.rebuilt(expr, &mut |arena, part| rewritten_once(arena, part, value, done))
-            })
-        }
+        _ => known(arena, expr, 1).unwrap_or_else(|| {
+            arena.rebuilt(expr, &mut |arena, part| rewritten_once(arena, part, value, done))
+        }),
     };
     done.insert(expr, rewritten);
     rewritten

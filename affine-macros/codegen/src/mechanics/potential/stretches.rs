@@ -11,6 +11,7 @@ mod symmetric;
 
 use crate::algebra::arena::Node;
 use crate::algebra::ring::above_diagonal;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
 use super::base::{Base, log_stretches};
@@ -34,43 +35,25 @@ pub fn is_stretched(arena: &mut Arena, n: usize, energy: Expr) -> bool {
 /// The function with two stretches exchanged, counted from 0; `None` where that divides by zero.
 pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) -> Option<Expr> {
     let q = log_stretches(arena, n);
-    arena.substitute(energy, &|symbol| match symbol {
-        _ if symbol == q[a] => Some(q[b]),
-        _ if symbol == q[b] => Some(q[a]),
-        _ => None,
-    })
+    arena.substitute(energy, &listed(&[(q[a], q[b]), (q[b], q[a])]))
 }
 
 /// Does a function vanish wherever two stretches, counted from 0, coincide? `q` and the traces of `G` are what they are in
 /// terms of the stretches.
 pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: usize, b: usize) -> bool {
     let q = log_stretches(arena, n);
-    let [mean, trace, of_square, of_cube] =
-        [Base::MeanLogStretch, Base::Trace, Base::TraceOfSquare, Base::TraceOfCube]
-            .map(|base| base.symbol(arena));
     let stretches: Vec<Expr> = (0..n).map(|c| if c == b { q[a] } else { q[c] }).collect();
-    let nth = Rational::one_over(n);
-    let sum = |arena: &mut Arena, power: i64| {
-        let terms: Vec<(Expr, Rational)> = stretches
-            .iter()
-            .map(|q| {
-                let argument = arena.scale(*q, &Rational::from(power));
-                (arena.apply(Function::Exp, argument), Rational::ONE)
-            })
-            .collect();
-        arena.linear(&terms)
-    };
-    let traces = [sum(arena, 2), sum(arena, 4), sum(arena, 6)];
-    let means: Vec<(Expr, Rational)> = stretches.iter().map(|q| (*q, nth.clone())).collect();
-    let means = arena.linear(&means);
-    let at_coincidence = arena.substitute(function, &|symbol| match symbol {
-        _ if symbol == mean => Some(means),
-        _ if symbol == trace => Some(traces[0]),
-        _ if symbol == of_square => Some(traces[1]),
-        _ if symbol == of_cube => Some(traces[2]),
-        _ if symbol == q[b] => Some(q[a]),
-        _ => None,
-    });
+    let means: Vec<_> = stretches.iter().map(|q| (*q, Rational::one_over(n))).collect();
+    let mut values = vec![(q[b], q[a]), (Base::MeanLogStretch.symbol(arena), arena.linear(&means))];
+    for trace in Base::TRACES {
+        let mut power = |q: &Expr| {
+            let argument = arena.scale(*q, &Rational::whole(trace.degree()));
+            (arena.apply(Function::Exp, argument), Rational::ONE)
+        };
+        let powers: Vec<_> = stretches.iter().map(&mut power).collect();
+        values.push((trace.symbol(arena), arena.linear(&powers)));
+    }
+    let at_coincidence = arena.substitute(function, &listed(&values));
     at_coincidence.is_none_or(|value| Form::of(arena, n, value).is_zero())
 }
 

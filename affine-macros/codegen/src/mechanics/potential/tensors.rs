@@ -2,12 +2,14 @@
 
 use std::collections::HashMap;
 
-use crate::algebra::ring::{Ring, Square, adjugate, dot, pairs, table, upper};
+use crate::algebra::ring::{Ring, Square, above_diagonal, adjugate, dot, pairs, product, table, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
-use crate::mechanics::charts::{Chart, Momentum};
-use crate::symbol::{Quantity, Symbol};
+use crate::mechanics::charts::Chart;
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::shared::frame_of;
+use crate::symbol::{Frame, Quantity, Symbol};
 
-use super::base::{Along, Base};
+use super::base::Base;
 use super::principal::Principal;
 
 /// Deformation tensors as symbols or as numbers, whichever the purpose asks for.
@@ -26,42 +28,78 @@ pub(super) struct Tensors<R> {
 impl<R: Ring> Tensors<R> {
     /// The values of tensors and traces by their symbols.
     pub(super) fn values(&self) -> HashMap<Symbol, R> {
-        let n = self.phi.len();
-        let mut values = HashMap::new();
-        for (a, b) in pairs(n) {
+        let traces = traces(&self.green, &self.squares[0]);
+        let mut values: HashMap<Symbol, R> =
+            Base::TRACES.map(Base::quantity).into_iter().zip(traces).collect();
+        for (a, b) in upper(self.phi.len()) {
             values.insert(Base::Green(a, b).quantity(), self.green[a][b].clone());
             values.insert(Base::Finger(a, b).quantity(), self.finger[a][b].clone());
         }
         values
-            .extend(Base::TRACES.map(Base::quantity).into_iter().zip(traces(&self.green, &self.squares[0])));
-        values
     }
 }
 
-/// Definitions of deformation tensors and traces in a chart; what is not used goes later.
-pub(super) fn definitions(arena: &mut Arena, n: usize, chart: &Chart) -> Vec<(Expr, Polynomial)> {
-    let phi = chart.placement();
-    let mut list = Vec::new();
+/// `G` and `Ct`, by their entries.
+pub(super) const TENSORS: [fn(usize, usize) -> Base; 2] = [Base::Green, Base::Finger];
+
+/// Which of them a chart reads.
+pub(super) fn own(chart: &Chart) -> usize {
+    usize::from(frame_of(chart) == Frame::Space)
+}
+
+/// The entries of a tensor as symbols: those of the placement, or those of its `unit` part `Psi`.
+pub(super) fn symbols(
+    arena: &mut Arena,
+    n: usize,
+    base: fn(usize, usize) -> Base,
+    unit: bool,
+) -> Square<Polynomial> {
+    table(n, |a, b| Polynomial::atom(symbol(arena, base(a, b), unit)))
+}
+
+fn symbol(arena: &mut Arena, base: Base, unit: bool) -> Expr {
+    if unit { base.unit(arena) } else { base.symbol(arena) }
+}
+
+/// The entries of `G^2` and `Ct^2` likewise.
+pub(super) fn squares(arena: &mut Arena, n: usize, unit: bool) -> [Square<Polynomial>; 2] {
+    let squares = match unit {
+        true => [Quantity::UnitGreenSquare, Quantity::UnitFingerSquare],
+        false => [Quantity::GreenSquare, Quantity::FingerSquare],
+    };
+    squares.map(|of| Matrix::symmetric(arena, of, n).atoms())
+}
+
+/// Definitions of deformation tensors and their traces, of `G` or of `Ct`, whichever is the `own` one, for a placement or its `unit`
+/// part; what is not used goes later.
+pub(super) fn definitions(
+    arena: &mut Arena,
+    phi: &Square<Polynomial>,
+    own: usize,
+    unit: bool,
+) -> Definitions {
+    let n = phi.len();
+    let mut entries = Vec::new();
     for (a, b) in upper(n) {
-        list.push((Base::Green(a, b).symbol(arena), green(&phi, a, b)));
-        list.push((Base::Finger(a, b).symbol(arena), finger(&phi, a, b)));
+        entries.push((symbol(arena, Base::Green(a, b), unit), green(phi, a, b)));
+        entries.push((symbol(arena, Base::Finger(a, b), unit), finger(phi, a, b)));
     }
-    let spatial = matches!(chart.momentum, Momentum::Space | Momentum::Total);
-    let squares = squares(arena, n, SQUARES);
-    let tensors = [Base::Green, Base::Finger].map(|base: fn(usize, usize) -> Base| -> Square<Polynomial> {
-        table(n, |a, b| Polynomial::atom(base(a, b).symbol(arena)))
-    });
+    let squares = squares(arena, n, unit);
+    let tensors = TENSORS.map(|tensor| symbols(arena, n, tensor, unit));
+    let mut of_squares = Vec::new();
     for (tensor, square) in tensors.iter().zip(&squares) {
-        list.extend(definitions_of_square(tensor, square));
+        let value = product(tensor, tensor);
+        let entry = |(a, b): (usize, usize)| Some((*square[a][b].atoms().next()?, value[a][b].clone()));
+        of_squares.extend(upper(n).filter_map(entry));
     }
-    let own = usize::from(spatial);
-    let symbols = Base::TRACES.map(|base| base.symbol(arena));
-    list.extend(symbols.into_iter().zip(traces(&tensors[own], &squares[own])));
-    list
+    let symbols = Base::TRACES.map(|base| symbol(arena, base, unit));
+    let traces = symbols.into_iter().zip(traces(&tensors[own], &squares[own])).collect();
+    // The order of what is listed is that in which programs form sums.
+    if unit { [of_squares, entries, traces].concat() } else { [entries, of_squares, traces].concat() }
 }
 
 /// `tr G`, `tr G^2` and `tr G^3` of a symmetric matrix, with its square.
-pub(super) fn traces<R: Ring>(tensor: &Square<R>, square: &Square<R>) -> [R; 3] {
+fn traces<R: Ring>(tensor: &Square<R>, square: &Square<R>) -> [R; 3] {
     let one = R::number(&Rational::ONE);
     let places = || pairs(tensor.len());
     [
@@ -71,36 +109,10 @@ pub(super) fn traces<R: Ring>(tensor: &Square<R>, square: &Square<R>) -> [R; 3] 
     ]
 }
 
-/// `G^2` and `Ct^2`.
-pub(super) const SQUARES: [Quantity; 2] = [Quantity::GreenSquare, Quantity::FingerSquare];
-
-/// Those of `Psi`.
-pub(super) const UNIT_SQUARES: [Quantity; 2] = [Quantity::UnitGreenSquare, Quantity::UnitFingerSquare];
-
-/// The entries of symmetric matrices as symbols.
-pub(super) fn squares(arena: &mut Arena, n: usize, of: [Quantity; 2]) -> [Square<Polynomial>; 2] {
-    of.map(|square| {
-        let mut entry = |a: usize, b: usize| arena.symbol(square.at([a.min(b) + 1, a.max(b) + 1]));
-        table(n, |a, b| Polynomial::atom(entry(a, b)))
-    })
-}
-
-/// What these symbols stand for.
-pub(super) fn definitions_of_square(
-    tensor: &Square<Polynomial>,
-    square: &Square<Polynomial>,
-) -> Vec<(Expr, Polynomial)> {
-    let n = tensor.len();
-    let pairs = upper(n);
-    let defined = pairs.filter_map(|(a, b)| {
-        let symbol = square[a][b].atoms().next().copied()?;
-        Some((symbol, entry_of_product(tensor, tensor, a, b)))
-    });
-    defined.collect()
-}
-
-/// The derivative of a base function, divided by the number that its slope carries.
-pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>, a: usize, b: usize) -> R {
+/// The derivative of a base function, divided by the number that its slope carries: of the body along `phi -> phi (1 + e E_AB)`,
+/// generated by `Sigma_hat_AB`, of space along `phi -> (1 + e E_ij) phi`, generated by `Sigma_ij`, of neither along
+/// `phi_iA -> phi_iA + e`, indices of `Pi_Ai`.
+pub(super) fn direction<R: Ring>(base: Base, along: Frame, tensors: &Tensors<R>, a: usize, b: usize) -> R {
     let one = |holds: bool| R::number(if holds { &Rational::ONE } else { &Rational::ZERO });
     let Tensors { phi, green, finger, squares: [green_square, finger_square], cofactors, principal } =
         tensors;
@@ -114,55 +126,54 @@ pub(super) fn direction<R: Ring>(base: Base, along: Along, tensors: &Tensors<R>,
     match (base, along) {
         (Base::Position(_), _) => {}
         (Base::LogStretch(k), _) => return principal.direction(k, along, a, b),
-        (Base::MeanLogStretch, Along::Body | Along::Space) => return one(a == b),
-        (Base::MeanLogStretch, Along::Placement) => return cofactors[a][b].clone(),
-        (Base::Trace, Along::Body) => return green[a][b].clone(),
-        (Base::Trace, Along::Space) => return finger[a][b].clone(),
-        (Base::Trace, Along::Placement) => return phi[a][b].clone(),
-        (Base::TraceOfSquare, Along::Body) => return entry_of_product(green, green, a, b),
-        (Base::TraceOfSquare, Along::Space) => return entry_of_product(finger, finger, a, b),
-        (Base::TraceOfSquare, Along::Placement) => return entry_of_product(phi, green, a, b),
-        (Base::TraceOfCube, Along::Body) => return entry_of_product(green, green_square, a, b),
-        (Base::TraceOfCube, Along::Space) => return entry_of_product(finger, finger_square, a, b),
-        (Base::TraceOfCube, Along::Placement) => return entry_of_product(phi, green_square, a, b),
-        (Base::Green(c, d), Along::Body) => {
+        (Base::MeanLogStretch, Frame::Flat) => return cofactors[a][b].clone(),
+        (Base::MeanLogStretch, _) => return one(a == b),
+        // G^k and Ct^k, and phi G^(k - 1).
+        (Base::Trace(k), _) => {
+            let (first, others) = match along {
+                Frame::Body => (green, [green, green_square]),
+                Frame::Space => (finger, [finger, finger_square]),
+                Frame::Flat => (phi, [green, green_square]),
+            };
+            return match k {
+                1 => first[a][b].clone(),
+                _ => dot(first[a].iter().zip(others[k - 2].iter().map(|row| &row[b]))),
+            };
+        }
+        (Base::Green(c, d), Frame::Body) => {
             add(a == c, &green[b][d]);
             add(a == d, &green[b][c]);
         }
         // d(phi_kC phi_kD)/dphi_jA phi_iA = phi_iC phi_jD + phi_jC phi_iD
-        (Base::Green(c, d), Along::Space) => {
+        (Base::Green(c, d), Frame::Space) => {
             add(true, &times(&phi[a][c], &phi[b][d]));
             add(true, &times(&phi[b][c], &phi[a][d]));
         }
-        (Base::Green(c, d), Along::Placement) => {
+        (Base::Green(c, d), Frame::Flat) => {
             add(b == c, &phi[a][d]);
             add(b == d, &phi[a][c]);
         }
-        (Base::Finger(i, j), Along::Body) => {
+        (Base::Finger(i, j), Frame::Body) => {
             add(true, &times(&phi[i][b], &phi[j][a]));
             add(true, &times(&phi[i][a], &phi[j][b]));
         }
-        (Base::Finger(k, l), Along::Space) => {
+        (Base::Finger(k, l), Frame::Space) => {
             add(b == k, &finger[a][l]);
             add(b == l, &finger[a][k]);
         }
-        (Base::Finger(k, l), Along::Placement) => {
+        (Base::Finger(k, l), Frame::Flat) => {
             add(a == k, &phi[l][b]);
             add(a == l, &phi[k][b]);
         }
-        (Base::Placement(i, c), Along::Body) => add(a == c, &phi[i][b]),
-        (Base::Placement(k, c), Along::Space) => add(b == k, &phi[a][c]),
-        (Base::Placement(i, c), Along::Placement) => return one(a == i && b == c),
+        (Base::Placement(i, c), Frame::Body) => add(a == c, &phi[i][b]),
+        (Base::Placement(k, c), Frame::Space) => add(b == k, &phi[a][c]),
+        (Base::Placement(i, c), Frame::Flat) => return one(a == i && b == c),
     }
     sum
 }
 
-fn entry_of_product<R: Ring>(left: &Square<R>, right: &Square<R>, a: usize, b: usize) -> R {
-    dot(left[a].iter().zip(right.iter().map(|row| &row[b])))
-}
-
 /// The cofactors `d(det phi)/dphi_iA`.
-pub(super) fn cofactors(arena: &mut Arena, chart: &Chart) -> Vec<(Expr, Polynomial)> {
+pub(super) fn cofactors(arena: &mut Arena, chart: &Chart) -> Definitions {
     let symbols = Matrix::symbols(arena, Quantity::Cofactor, chart.dim).transpose();
     symbols.0.concat().into_iter().zip(adjugate(&chart.placement()).concat()).collect()
 }
@@ -173,4 +184,35 @@ pub(super) fn green<R: Ring>(phi: &Square<R>, a: usize, b: usize) -> R {
 
 pub(super) fn finger<R: Ring>(phi: &Square<R>, i: usize, j: usize) -> R {
     dot(phi[i].iter().zip(&phi[j]))
+}
+
+/// The symbol of `I2 = ((tr G)^2 - tr G^2)/2`, the sum of the principal minors of two rows, `det G` for n = 2: the difference of the
+/// squares loses digits where one stretch is long.
+pub(super) fn second_invariant(arena: &mut Arena) -> Expr {
+    arena.symbol(Quantity::SecondInvariant)
+}
+
+/// The polynomial with `2 I2` for `(tr G)^2 - tr G^2`, wherever that stands in it with one factor; `None` where it does not.
+pub(super) fn through_second_invariant(arena: &mut Arena, form: &Polynomial) -> Option<Polynomial> {
+    let [trace, of_square] = [1, 2].map(|power| Base::Trace(power).symbol(arena));
+    let difference = Polynomial::monomial([trace, trace]).sub(&Polynomial::atom(of_square));
+    let twice = Polynomial::term(vec![second_invariant(arena)], Rational::from(2));
+    let shorter = form.by_names(&[(twice, difference)]);
+    (shorter != *form).then_some(shorter)
+}
+
+/// `I2` of the tensor that a chart has.
+pub(super) fn definition_of_second(arena: &mut Arena, chart: &Chart) -> (Expr, Polynomial) {
+    let tensor = symbols(arena, chart.dim, TENSORS[own(chart)], false);
+    (second_invariant(arena), minors(&tensor))
+}
+
+/// The sum of the principal minors of two rows of a symmetric matrix.
+pub(super) fn minors(matrix: &Square<Polynomial>) -> Polynomial {
+    let mut sum = Polynomial::zero();
+    for (a, b) in above_diagonal(matrix.len()) {
+        sum.add_product(&matrix[a][a], &matrix[b][b], &Rational::ONE);
+        sum.add_product(&matrix[a][b], &matrix[a][b], &Rational::MINUS_ONE);
+    }
+    sum
 }

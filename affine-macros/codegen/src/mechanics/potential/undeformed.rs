@@ -23,11 +23,6 @@ impl Counted {
         Self { at_rest: Polynomial::constant(number.into()), change }
     }
 
-    /// What vanishes at `phi = 1`.
-    pub(super) fn vanishing(change: Polynomial) -> Self {
-        Self { at_rest: Polynomial::zero(), change }
-    }
-
     /// What the placement does not change.
     pub(super) fn constant(of: Polynomial) -> Self {
         Self { at_rest: of, change: Polynomial::zero() }
@@ -178,14 +173,14 @@ impl Undeformed {
                 arena.apply(Function::Asinh, half)
             }
             // y - y0 = (u - u0)/(y + y0), and with cubes
-            Function::Sqrt => {
-                let sum = arena.add(value, of_start);
-                arena.div(step, sum)?
-            }
-            Function::Cbrt => {
-                let (squares, product) =
-                    ([value, of_start].map(|y| arena.mul(y, y)), arena.mul(value, of_start));
-                let sum = arena.linear(&[squares[0], product, squares[1]].map(|term| (term, Rational::ONE)));
+            Function::Sqrt | Function::Cbrt => {
+                let mut terms = vec![value, of_start];
+                if function == Function::Cbrt {
+                    terms.iter_mut().for_each(|y| *y = arena.mul(*y, *y));
+                    terms.push(arena.mul(value, of_start));
+                }
+                let terms: Vec<_> = terms.into_iter().map(|term| (term, Rational::ONE)).collect();
+                let sum = arena.linear(&terms);
                 arena.div(step, sum)?
             }
             Function::Cosh | Function::Cos if at_rest.is_zero() => {

@@ -3,18 +3,19 @@
 
 use crate::algebra::arena::Node;
 use crate::algebra::rational::exponent;
-use crate::algebra::ring::adjugate;
+use crate::algebra::ring::{adjugate, dot};
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
+use crate::mechanics::metric::Definitions;
 use crate::symbol::Quantity;
 
-use super::Base;
+use super::base::Base;
 use super::scaled::collected;
 
 /// The symbols of one volume.
 #[derive(Clone, Copy)]
 pub(super) struct Volume {
-    n: i32,
+    pub(super) n: usize,
     pub(super) det: Expr,
     pub(super) inverse_det: Expr,
     pub(super) d: Expr,
@@ -29,12 +30,7 @@ impl Volume {
             Quantity::Dilatation,
             Quantity::InverseDilatation,
         ]);
-        Self { n: exponent(n), det, inverse_det, d, inverse_d }
-    }
-
-    /// The dimension of space.
-    pub(super) fn dim(&self) -> usize {
-        self.n.unsigned_abs() as usize
+        Self { n, det, inverse_det, d, inverse_d }
     }
 
     /// The normal form of an expression in powers of `D` and `1/D`.
@@ -80,13 +76,14 @@ impl Volume {
         arena.certain_product(&factors)
     }
 
-    /// The atoms of `D^exponent`.
-    fn factors(&self, exponent: i32) -> Vec<Expr> {
-        let Self { n, det, inverse_det, inverse_d, .. } = *self;
-        let (whole, rest) = match exponent {
+    /// The atoms of `D^power`.
+    fn factors(&self, power: i32) -> Vec<Expr> {
+        let Self { det, inverse_det, inverse_d, .. } = *self;
+        let n = exponent(self.n);
+        let (whole, rest) = match power {
             // D^k = det^m (1/D)^(n m - k)
-            1.. => ((det, exponent.div_euclid(n) + i32::from(exponent % n != 0)), (-exponent).rem_euclid(n)),
-            _ => ((inverse_det, -exponent / n), -exponent % n),
+            1.. => ((det, power.div_euclid(n) + i32::from(power % n != 0)), (-power).rem_euclid(n)),
+            _ => ((inverse_det, -power / n), -power % n),
         };
         let times = |count: i32| count.unsigned_abs() as usize;
         let mut atoms = vec![whole.0; times(whole.1)];
@@ -96,14 +93,15 @@ impl Volume {
 
     /// The polynomial with each power of `D` in one form.
     pub(super) fn reduced(&self, form: &Polynomial) -> Polynomial {
+        let n = exponent(self.n);
         let mut result = Polynomial::zero();
         for (monomial, c) in form.terms() {
             let mut exponent = 0;
             let mut kept = Vec::with_capacity(monomial.len());
             for atom in monomial {
                 match *atom {
-                    a if a == self.det => exponent += self.n,
-                    a if a == self.inverse_det => exponent -= self.n,
+                    a if a == self.det => exponent += n,
+                    a if a == self.inverse_det => exponent -= n,
                     a if a == self.d => exponent += 1,
                     a if a == self.inverse_d => exponent -= 1,
                     other => kept.push(other),
@@ -116,13 +114,8 @@ impl Volume {
     }
 
     /// `det`, `1/D`, `D`, `1/det` and `q`, with one root where there is any.
-    pub(super) fn definitions(
-        &self,
-        arena: &mut Arena,
-        chart: &Chart,
-        uses_root: bool,
-    ) -> Vec<(Expr, Polynomial)> {
-        let n = chart.dim;
+    pub(super) fn definitions(&self, arena: &mut Arena, chart: &Chart, uses_root: bool) -> Definitions {
+        let n = self.n;
         let Self { det, inverse_det, d, inverse_d, .. } = *self;
         let root = arena.apply(if n == 2 { Function::Sqrt } else { Function::Cbrt }, det);
         let logarithm = arena.apply(Function::Ln, det);
@@ -133,21 +126,8 @@ impl Volume {
             true => Polynomial::term(vec![inverse_d; n], Rational::ONE),
             false => reciprocal(arena, det),
         };
-        // The forces on Pi contain the cofactors themselves; elsewhere the determinant alone is needed.
-        let first_row: Vec<Polynomial> = match chart.momentum {
-            Momentum::Canonical => {
-                let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n);
-                cofactors.0[0].iter().map(|cofactor| Polynomial::atom(*cofactor)).collect()
-            }
-            _ => adjugate(&chart.placement()).iter().map(|row| row[0].clone()).collect(),
-        };
-        let determinant: Polynomial = chart.phi.0[0]
-            .iter()
-            .zip(first_row)
-            .map(|(entry, cofactor)| Polynomial::atom(*entry).mul(&cofactor))
-            .sum();
-        let mut product = vec![inverse_d; n - 1];
-        product.push(det);
+        let determinant = dot(chart.placement()[0].iter().zip(&first_cofactors(arena, chart)));
+        let product = [vec![inverse_d; n - 1], vec![det]].concat();
         vec![
             (det, determinant),
             (inverse_d, reciprocal(arena, root)),
@@ -155,5 +135,14 @@ impl Volume {
             (inverse_det, inverse),
             (Base::MeanLogStretch.symbol(arena), Polynomial::term(vec![logarithm], nth)),
         ]
+    }
+}
+
+/// The cofactors of the first row of `phi`. The forces on `Pi` contain the cofactors themselves; elsewhere the determinant alone
+/// is needed.
+pub(super) fn first_cofactors(arena: &mut Arena, chart: &Chart) -> Vec<Polynomial> {
+    match chart.momentum {
+        Momentum::Canonical => Matrix::symbols(arena, Quantity::Cofactor, chart.dim).atoms().swap_remove(0),
+        _ => adjugate(&chart.placement()).iter().map(|row| row[0].clone()).collect(),
     }
 }

@@ -2,11 +2,15 @@
 
 mod steepness;
 
+use std::rc::Rc;
+
 use crate::algebra::arena::Node;
-use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::ring::{add_scalar, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::Load;
+use crate::mechanics::metric::Definitions;
 use crate::symbol::Quantity;
 
 use super::Potential;
@@ -15,10 +19,9 @@ use super::excess::{Isochoric, mean_square};
 use super::principal::Principal;
 use super::rewriting::through_dilatation;
 use super::scaled::{self, scaled_bases};
-use super::second;
 use super::strain::Strains;
 use super::sums::Sums;
-use super::tensors::{SQUARES, Tensors, UNIT_SQUARES, cofactors, definitions, squares};
+use super::tensors::{TENSORS, Tensors, cofactors, definitions, own, squares, symbols};
 use super::undeformed::{Counted, Undeformed};
 use super::volume::Volume;
 
@@ -49,22 +52,16 @@ pub struct Way {
 }
 
 /// What a way of writing works with.
-pub(super) enum Means {
-    Plain(Volume),
-    Strains(Box<Counting>),
-    Unit(Volume),
+pub(super) struct Means {
+    pub(super) writing: Writing,
+    pub(super) volume: Volume,
+    /// The quantities that are counted from the undeformed state, where any are.
+    pub(super) strains: Option<Rc<Strains>>,
+    undeformed: Undeformed,
 }
 
 /// Powers of sums are multiplied out at `phi = 1` where the sums have no more terms there.
 const MOST_AT_REST: usize = 2;
-
-/// What counting from the undeformed state takes.
-pub(super) struct Counting {
-    volume: Volume,
-    pub(super) strains: Strains,
-    undeformed: Undeformed,
-    pub(super) writing: Writing,
-}
 
 impl Writing {
     /// Does it count from the undeformed state?
@@ -108,14 +105,14 @@ impl Potential {
         if chart.confined.is_some() {
             return vec![Writing::Plain];
         }
-        if self.has_single_stretches() {
-            return vec![Writing::Plain, Writing::Differences];
-        }
         let mut list = vec![Writing::Plain, Writing::Differences];
+        if self.has_single_stretches() {
+            return list;
+        }
         let any = |wanted: &[Base]| self.slopes.iter().any(|(base, _)| wanted.contains(base));
         // Of entries of tensors alone it is the way before.
-        let has_mean = any(&[Base::Trace, Base::TraceOfSquare, Base::MeanLogStretch]);
-        if has_mean && !any(&[Base::TraceOfCube]) {
+        let has_mean = any(&[Base::Trace(1), Base::Trace(2), Base::MeanLogStretch]);
+        if has_mean && !any(&[Base::Trace(3)]) {
             list.push(Writing::Deviators);
             list.extend(self.is_of_minors(arena).then_some(Writing::Inverses));
         }
@@ -138,11 +135,8 @@ impl Potential {
             Momentum::Total => Momentum::Space,
             momentum => momentum,
         };
-        let chosen = self.writings.iter().find(|(known, _)| *known == momentum);
-        match chart.confined {
-            None => chosen.map_or(Way::default(), |(_, way)| *way),
-            Some(_) => Way::default(),
-        }
+        let chosen = self.writings.iter().find(|(known, _)| *known == momentum && chart.confined.is_none());
+        chosen.map_or(Way::default(), |(_, way)| *way)
     }
 
     /// Is it a function of `I2` in which `tr G^2` has no part but that? `dU/d(tr G) = dU/dI1 + I1 dU/dI2` is then shorter
@@ -155,9 +149,9 @@ impl Potential {
             let form = sums.named(arena, form);
             Some(Polynomial::normal_form(arena, form).scaled(&wanted.weight(self.dim)))
         };
-        let Some((first, second)) = slope(Base::Trace).zip(slope(Base::TraceOfSquare)) else { return false };
+        let Some((first, second)) = slope(Base::Trace(1)).zip(slope(Base::Trace(2))) else { return false };
         let mut without = first.clone();
-        without.add_product(&second, &Polynomial::atom(Base::Trace.symbol(arena)), &Rational::ONE);
+        without.add_product(&second, &Polynomial::atom(Base::Trace(1).symbol(arena)), &Rational::ONE);
         self.dim == 3 && without.terms().len() < first.terms().len()
     }
 }
@@ -165,55 +159,49 @@ impl Potential {
 impl Means {
     pub(super) fn new(arena: &mut Arena, chart: &Chart, writing: Writing) -> Self {
         let volume = Volume::new(arena, chart.dim);
-        match writing {
-            Writing::Plain => Self::Plain(volume),
-            Writing::Isochoric => Self::Unit(volume),
-            Writing::Differences | Writing::Deviators | Writing::Inverses => {
-                let strains = Strains::new(arena, chart, volume);
-                let undeformed = strains.known(arena);
-                Self::Strains(Box::new(Counting { volume, strains, undeformed, writing }))
-            }
-        }
+        let strains = writing.counts().then(|| Rc::new(Strains::new(arena, chart, volume)));
+        let undeformed = strains.as_ref().map_or_else(Undeformed::default, |strains| strains.known(arena));
+        Self { writing, volume, strains, undeformed }
     }
 
-    fn volume(&self) -> Volume {
-        match self {
-            Self::Plain(volume) | Self::Unit(volume) => *volume,
-            Self::Strains(counting) => counting.volume,
-        }
+    /// Is it written through `D` and `Psi`?
+    pub(super) fn is_unit(&self) -> bool {
+        self.writing == Writing::Isochoric
     }
 
     /// A slope before its sums are named; `moved` is the power of `D` in what it stands beside.
     pub(super) fn prepared(&self, arena: &mut Arena, form: Expr, moved: i32) -> Expr {
-        let Self::Unit(volume) = self else { return form };
-        let reciprocal = arena.reciprocal(volume.d);
-        let mut values = scaled_bases(arena, volume.dim(), volume.d);
-        values.push((volume.inverse_d, reciprocal));
-        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
+        if !self.is_unit() {
+            return form;
+        }
+        let Volume { n, d, inverse_d, .. } = self.volume;
+        let reciprocal = arena.reciprocal(d);
+        let mut values = scaled_bases(arena, n, d);
+        values.push((inverse_d, reciprocal));
         // Powers of D are not zero.
-        let form = arena.replaced(form, &value);
-        arena.certain_product(&[(form, 1), (volume.d, moved)])
+        let form = arena.replaced(form, &listed(&values));
+        arena.certain_product(&[(form, 1), (d, moved)])
     }
 
     /// The normal form of a part of a slope: without products of `D` and `1/D`.
     pub(super) fn normal_form(&self, arena: &mut Arena, form: Expr) -> Polynomial {
-        let volume = self.volume();
-        let Self::Unit(_) = self else { return volume.collected(arena, form) };
-        let reciprocal = arena.reciprocal(volume.d);
-        let named = |atom: Expr| (atom == reciprocal).then(|| Polynomial::atom(volume.inverse_d));
-        scaled::collected(arena, form, volume.d).substitute(&named)
+        if !self.is_unit() {
+            return self.volume.collected(arena, form);
+        }
+        let Volume { d, inverse_d, .. } = self.volume;
+        let reciprocal = arena.reciprocal(d);
+        scaled::collected(arena, form, d).substitute(&listed(&[(reciprocal, Polynomial::atom(inverse_d))]))
     }
 
     /// A slope over the determinant.
     pub(super) fn over_det(&self, slope: &Polynomial) -> Polynomial {
-        let volume = self.volume();
-        let over = slope.mul(&Polynomial::atom(volume.inverse_det));
-        if let Self::Unit(_) = self { over } else { volume.reduced(&over) }
+        let over = slope.mul(&Polynomial::atom(self.volume.inverse_det));
+        if self.is_unit() { over } else { self.volume.reduced(&over) }
     }
 
     /// Is it a function of the volume and of parameters alone?
     pub(super) fn is_of_volume(&self, arena: &Arena, form: &Polynomial) -> bool {
-        let Volume { det, inverse_det, d, inverse_d, .. } = self.volume();
+        let Volume { det, inverse_det, d, inverse_d, .. } = self.volume;
         let known = [det, inverse_det, d, inverse_d];
         !form.any_symbol(arena, &mut |s| {
             !(known.contains(&s)
@@ -224,32 +212,17 @@ impl Means {
 
     /// `G/D^2`, where that is at hand.
     pub(super) fn isochoric(&self, arena: &mut Arena) -> Option<Isochoric> {
-        let n = self.volume().dim();
         let mean = mean_square(arena);
-        match self {
-            Self::Plain(_) => None,
-            Self::Unit(_) => {
-                let trace = vec![Base::Trace.unit(arena)];
-                let mut deviator = table(n, |_, _| Polynomial::zero());
-                for (a, b) in pairs(n) {
-                    deviator[a][b] = Polynomial::atom(Base::Green(a, b).unit(arena));
-                    if a == b {
-                        deviator[a][b].add_term(vec![mean], &Rational::MINUS_ONE);
-                    }
-                }
-                Some(Isochoric { trace, deviator })
-            }
-            Self::Strains(counting) => {
-                let Counting { volume, strains, .. } = &**counting;
-                let trace = vec![Base::Trace.symbol(arena), volume.inverse_d, volume.inverse_d];
-                let squared = Polynomial::term(vec![volume.inverse_d; 2], Rational::ONE);
-                let mut deviator = strains.deviator(arena);
-                for entry in deviator.iter_mut().flatten() {
-                    *entry = entry.mul(&squared);
-                }
-                Some(Isochoric { trace, deviator })
-            }
+        let Volume { n, inverse_d, .. } = self.volume;
+        if self.is_unit() {
+            let mut deviator = symbols(arena, n, Base::Green, true);
+            add_scalar(&mut deviator, &Polynomial::atom(mean).neg());
+            return Some(Isochoric { trace: vec![Base::Trace(1).unit(arena)], deviator });
         }
+        let deviator = self.strains.as_ref()?.deviator(arena);
+        let trace = vec![Base::Trace(1).symbol(arena), inverse_d, inverse_d];
+        let over = |a: usize, b: usize| Polynomial::monomial([deviator.0[a][b], inverse_d, inverse_d]);
+        Some(Isochoric { trace, deviator: table(n, over) })
     }
 
     /// A sum that is raised to a power, as it is to be computed; `counted` where all of the force vanishes with it.
@@ -260,138 +233,68 @@ impl Means {
         form: Polynomial,
         counted: bool,
     ) -> Polynomial {
-        let Self::Strains(counting) = self else { return form };
-        let undeformed = &mut counting.undeformed;
-        let parts = undeformed.of(arena, &form);
-        if parts.at_rest.is_zero() {
-            undeformed.know(symbol, Counted::vanishing(Polynomial::atom(symbol)));
-        } else if parts.at_rest.terms().len() <= MOST_AT_REST {
-            undeformed.know(symbol, parts);
-        } else {
-            undeformed.know(symbol, Counted::constant(Polynomial::atom(symbol)));
+        if self.strains.is_none() {
+            return form;
         }
-        let small = undeformed.counted(arena, &form);
+        let parts = self.undeformed.of(arena, &form);
+        let terms = parts.at_rest.terms().len();
+        let parts = match terms {
+            0 => Counted::from(0, Polynomial::atom(symbol)),
+            1..=MOST_AT_REST => parts,
+            _ => Counted::constant(Polynomial::atom(symbol)),
+        };
+        self.undeformed.know(symbol, parts);
+        let small = self.undeformed.counted(arena, &form);
         // One more division is not worth it where other terms hide the sum.
         let excess = arena.symbol(Quantity::ExcessDilatation);
         if counted || !small.any_symbol(arena, &mut |s| s == excess) { small } else { form }
     }
 
-    /// What stands before the unit matrix: `v + a m + b m^2 + ..`, where the mean `m` of `G` is `tr(G)/n` or 1.
-    pub(super) fn offset(&mut self, arena: &mut Arena, powers: &[Polynomial]) -> Polynomial {
-        let Self::Strains(counting) = self else { return Polynomial::zero() };
-        let Counting { volume, strains, undeformed, writing } = &mut **counting;
-        let deviates = *writing == Writing::Deviators;
-        let mean = match deviates {
-            true => Polynomial::atom(arena.symbol(Quantity::MeanSquareStretch)),
-            false => Polynomial::constant(Rational::ONE),
-        };
-        let mut sum = Polynomial::zero();
-        let mut power = Polynomial::constant(Rational::ONE);
-        for coefficient in powers {
-            sum.add_product(coefficient, &power, &Rational::ONE);
-            power = power.mul(&mean);
-        }
-        if deviates {
-            sum = strains.through_deviator(arena, &sum);
-        }
-        let sum = volume.reduced(&sum);
-        undeformed.counted(arena, &sum)
-    }
-
-    /// What stands before the unit matrix in `v + a G + b G^2 = c + (a + b tr G) (G - 1) - b det^2 G^-1 (G - 1)`, with the
-    /// other coefficients: `c = v + a + b tr G + b (det^2 - I2)`.
-    pub(super) fn about_the_inverse(
-        &mut self,
-        arena: &mut Arena,
-        [v, a, b]: [&Polynomial; 3],
-    ) -> [Polynomial; 3] {
-        let Self::Strains(counting) = self else { return [v, a, b].map(Clone::clone) };
-        let Counting { volume, undeformed, .. } = &mut **counting;
-        let mut along = a.clone();
-        along.add_product(b, &Polynomial::atom(Base::Trace.symbol(arena)), &Rational::ONE);
-        let square = Polynomial::term(vec![volume.det; 2], Rational::ONE);
-        let mut minors = square.clone();
-        minors.add_term(vec![second::symbol(arena)], &Rational::MINUS_ONE);
-        let mut sum = v.clone();
-        sum.add_scaled(&along, &Rational::ONE);
-        sum.add_product(b, &minors, &Rational::ONE);
-        let sum = volume.reduced(&sum);
-        [undeformed.counted(arena, &sum), along, volume.reduced(&b.mul(&square))]
-    }
-
     /// A coefficient of a force, with what cancels at the undeformed state taken apart.
     pub(super) fn counted(&mut self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
-        match self {
-            Self::Strains(counting) => counting.undeformed.counted(arena, form),
-            _ => form.clone(),
+        match self.strains {
+            Some(_) => self.undeformed.counted(arena, form),
+            None => form.clone(),
         }
     }
 
     /// An exponential that is there less one too is one more than that.
-    pub(super) fn settle(&self, arena: &mut Arena, load: &mut Load) {
-        let Self::Strains(counting) = self else { return };
-        let undeformed = &counting.undeformed;
-        let is_growth =
-            |arena: &Arena, atom: Expr| matches!(arena.node(atom), Node::Function(Function::ExpM1, _));
-        let forms = || {
-            load.shared.iter().chain([]).map(|(_, form)| form).chain(load.forces.iter().map(|(_, form)| form))
-        };
+    pub(super) fn settle(&self, arena: &Arena, load: &mut Load) {
+        let forces = load.forces.iter_mut().map(|(_, form)| form);
+        let mut forms: Vec<_> = load.shared.iter_mut().map(|(_, form)| form).chain(forces).collect();
         let mut values = Vec::new();
-        for (atom, counted) in undeformed.exponentials(arena) {
-            let growth = counted.change.terms().flat_map(|(monomial, _)| monomial.iter().copied());
-            let growth: Vec<Expr> = growth.filter(|atom| is_growth(arena, *atom)).collect();
-            if forms().any(|form| form.mentions(|atom| growth.contains(&atom))) {
-                let mut whole = counted.at_rest.clone();
-                whole.add_scaled(&counted.change, &Rational::ONE);
-                values.push((atom, whole));
+        for (atom, counted) in self.undeformed.exponentials(arena) {
+            let is_growth = |atom: &&Expr| matches!(arena.node(**atom), Node::Function(Function::ExpM1, _));
+            let growth: Vec<&Expr> = counted.change.atoms().filter(is_growth).collect();
+            if forms.iter().any(|form| form.mentions(|atom| growth.contains(&&atom))) {
+                values.push((atom, counted.at_rest.add(&counted.change)));
             }
         }
-        if values.is_empty() {
-            return;
-        }
-        let value =
-            |atom: Expr| values.iter().find(|(known, _)| *known == atom).map(|(_, whole)| whole.clone());
-        for (_, form) in &mut load.shared {
-            *form = form.substitute(&value);
-        }
-        for (_, form) in &mut load.forces {
-            *form = form.substitute(&value);
+        if !values.is_empty() {
+            forms.iter_mut().for_each(|form| **form = form.substitute(&listed(&values)));
         }
     }
 
     /// Definitions of the tensors, the cofactors and the volume; what is not used goes later.
-    pub(super) fn definitions(
-        &self,
-        arena: &mut Arena,
-        chart: &Chart,
-        uses_root: bool,
-    ) -> Vec<(Expr, Polynomial)> {
-        let volume = self.volume();
-        let mut list = match self {
-            Self::Strains(counting) => counting.strains.definitions(arena),
-            _ => Vec::new(),
-        };
-        list.extend(definitions(arena, chart.dim, chart));
-        if let Self::Unit(_) = self {
-            list.extend(scaled::definitions(arena, chart, volume.inverse_d));
+    pub(super) fn definitions(&self, arena: &mut Arena, chart: &Chart, uses_root: bool) -> Definitions {
+        let mut list = Vec::new();
+        list.extend(self.strains.iter().flat_map(|strains| strains.definitions(arena)));
+        list.extend(definitions(arena, &chart.placement(), own(chart), false));
+        if self.is_unit() {
+            list.extend(scaled::definitions(arena, chart, self.volume.inverse_d));
         }
         list.extend(cofactors(arena, chart));
-        list.extend(volume.definitions(arena, chart, uses_root));
+        list.extend(self.volume.definitions(arena, chart, uses_root));
         list
     }
 
     /// The tensors that forces are written with.
     pub(super) fn tensors(&self, arena: &mut Arena, chart: &Chart) -> Tensors<Polynomial> {
-        let n = chart.dim;
-        let unit = matches!(self, Self::Unit(_));
-        let mut symbols = |base: fn(usize, usize) -> Base| -> Square<Polynomial> {
-            let mut entry = |a, b| if unit { base(a, b).unit(arena) } else { base(a, b).symbol(arena) };
-            table(n, |a, b| Polynomial::atom(entry(a, b)))
-        };
-        let (green, finger) = (symbols(Base::Green), symbols(Base::Finger));
-        let phi = if unit { symbols(Base::Placement) } else { chart.placement() };
+        let (n, unit) = (chart.dim, self.is_unit());
+        let [green, finger] = TENSORS.map(|tensor| symbols(arena, n, tensor, unit));
+        let phi = if unit { symbols(arena, n, Base::Placement, unit) } else { chart.placement() };
         let cofactors = Matrix::symbols(arena, Quantity::Cofactor, n).atoms();
-        let squares = squares(arena, n, if unit { UNIT_SQUARES } else { SQUARES });
+        let squares = squares(arena, n, unit);
         Tensors { phi, green, finger, squares, cofactors, principal: Principal::new(arena, n) }
     }
 }

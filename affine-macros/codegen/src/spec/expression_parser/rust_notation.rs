@@ -42,7 +42,7 @@ impl Parser<'_> {
         let method = method.to_string();
         let function = FUNCTIONS.into_iter().find(|function| function.name() == method);
         let number = match arguments.stream().into_iter().collect::<Vec<_>>().as_slice() {
-            [TokenTree::Literal(literal)] => exact(&literal.to_string()).ok(),
+            [TokenTree::Literal(one)] => exact(&syn::Lit::new(one.clone()), &one.to_string()).ok(),
             _ => None,
         };
         let placed = |kind| Expression { kind, span: operand.span };

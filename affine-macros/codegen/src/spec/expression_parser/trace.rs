@@ -51,15 +51,13 @@ impl Parser<'_> {
     fn words(&mut self, part: &Expression, scalars: &mut Scalars) -> Result<Words, Reported> {
         let words = match &part.kind {
             _ if !has_matrix(part) => scalar(part, scalars),
-            ExpressionKind::Negate(one) => self.words(one, scalars)?.scaled(&-&Rational::ONE),
+            ExpressionKind::Negate(one) => self.words(one, scalars)?.negated(),
             ExpressionKind::Binary(operator, left, right) => match operator {
                 Operator::Power => self.matrix_power(left, right, part, scalars)?,
                 Operator::Divide => self.words(left, scalars)?.product(&self.inverse(right, scalars)?),
                 Operator::Multiply => self.words(left, scalars)?.product(&self.words(right, scalars)?),
                 Operator::Add => self.words(left, scalars)?.sum(self.words(right, scalars)?),
-                Operator::Subtract => {
-                    self.words(left, scalars)?.sum(self.words(right, scalars)?.scaled(&-&Rational::ONE))
-                }
+                Operator::Subtract => self.words(left, scalars)?.sum(self.words(right, scalars)?.negated()),
             },
             _ => match matrix(part) {
                 Some(matrix) => Words::letter(Letter { matrix, is_inverse: false }),
@@ -96,7 +94,7 @@ impl Parser<'_> {
         };
         let words = self.words(base, scalars)?;
         match (u32::try_from(power), words.as_letter()) {
-            (Ok(power), _) => self.repeated(&words, power, part),
+            (Ok(power), _) => Ok(words.power(power)),
             (Err(_), Some(Letter { matrix: MatrixName::Placement, .. })) => {
                 Err(self.refused(part, part.span, TracedPart::InversePlacement))
             }
@@ -105,20 +103,6 @@ impl Parser<'_> {
             }
             _ => Err(self.refused(part, part.span, TracedPart::Inverse)),
         }
-    }
-
-    fn repeated(&mut self, words: &Words, power: u32, part: &Expression) -> Result<Words, Reported> {
-        let degree = words.degree.saturating_mul(u64::from(power));
-        if degree > LARGEST_DEGREE {
-            let mistake = ExpressionMistake::Degree { degree, limit: LARGEST_DEGREE };
-            return Err(self.found.report(part.span, mistake));
-        }
-        let mut result = Words::number(Rational::ONE);
-        for _ in 0..power {
-            result = result.product(words);
-        }
-        result.degree = degree.max(1);
-        Ok(result)
     }
 
     /// `phi^T`, also of a name of textbooks; of no base may an exponent be a name.

@@ -1,33 +1,32 @@
 //! The deviator of the strain, in which dilatations cancel exactly.
 
-use crate::algebra::ring::{Square, pairs, table};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
-use crate::mechanics::potential::Base;
+use crate::algebra::ring::{pairs, upper};
+use crate::algebra::substitute::listed;
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::potential::base::Base;
+use crate::mechanics::potential::tensors::TENSORS;
 use crate::symbol::Quantity;
 
 use super::{Strains, beside_diagonal, difference};
 
 impl Strains {
     /// The deviator of `G`, or of `Ct` where the chart reads that.
-    pub(in crate::mechanics::potential) fn deviator(&self, arena: &mut Arena) -> Square<Polynomial> {
-        let mut entry =
-            |a: usize, b: usize| arena.symbol(Quantity::Deviator.at([a.min(b) + 1, a.max(b) + 1]));
-        table(self.n, |a, b| Polynomial::atom(entry(a, b)))
+    pub(in crate::mechanics::potential) fn deviator(&self, arena: &mut Arena) -> Matrix {
+        Matrix::symmetric(arena, Quantity::Deviator, self.n)
     }
 
     /// `cof (G - tr(G)/3)` through `det phi = cof G`, without the entries of `G`: `det phi_ia - cof_ia tr(G)/3` beside the diagonal,
     /// `cof_aa (3 phi_aa^2 - tr G)/3 + phi_aa o_a` on it, where `det = phi_aa cof_aa + o_a` in row `a`. The factors `phi_ia` and
     /// `cof_ia` with what they stand beside: `det`, and on the diagonal the other two.
     pub(in crate::mechanics::potential) fn on_axis(&self, arena: &mut Arena, a: usize) -> [Polynomial; 2] {
-        let others: Polynomial = (0..self.n)
-            .filter(|b| *b != a)
-            .map(|b| self.phi[a][b].mul(&Polynomial::atom(self.cofactors[a][b])))
-            .sum();
-        [Polynomial::atom(axial_deviator(arena, a)), others]
+        let others = (0..self.n).filter(|b| *b != a);
+        let others = others.map(|b| self.phi[a][b].mul(&Polynomial::atom(self.cofactors[a][b])));
+        [Polynomial::atom(axial_deviator(arena, a)), others.sum()]
     }
 
     /// What that and `tr G` are in space: `3 phi_22^2 - tr G` through differences of squares, the others by differences from it.
-    fn axial_deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+    fn axial_deviators(&self, arena: &mut Arena, list: &mut Definitions) {
         if self.n != 3 {
             return;
         }
@@ -50,15 +49,13 @@ impl Strains {
     /// `tr G` through that.
     pub(in crate::mechanics::potential) fn trace_through_axes(&self, arena: &mut Arena) -> Polynomial {
         let own = &self.phi[1][1];
-        let mut trace = own.mul(own).scaled(&Rational::from(3));
-        trace.add_term(vec![axial_deviator(arena, 1)], &Rational::MINUS_ONE);
-        trace
+        own.mul(own).scaled(&Rational::from(3)).sub(&Polynomial::atom(axial_deviator(arena, 1)))
     }
 
     /// Its entries, on the diagonal through differences of squares, and the trace of its square.
-    pub(super) fn deviators(&self, arena: &mut Arena, list: &mut Vec<(Expr, Polynomial)>) {
+    pub(super) fn deviators(&self, arena: &mut Arena, list: &mut Definitions) {
         let n = self.n;
-        let base: fn(usize, usize) -> Base = if self.spatial { Base::Finger } else { Base::Green };
+        let base = TENSORS[self.own];
         let part = |number: usize| &Rational::whole(number) * &Rational::one_over(n);
         let mut diagonal = vec![Polynomial::zero(); n];
         for a in 0..n - 1 {
@@ -66,21 +63,13 @@ impl Strains {
             let [sum, of_squares] = [Quantity::PlacementSum, Quantity::SquareDifference]
                 .map(|of| arena.symbol(of.at([a + 1, b + 1])));
             let (difference, _) = difference(arena, a, b);
-            let combined = |sign: Rational| {
-                let mut value = self.phi[a][a].clone();
-                value.add_scaled(&self.phi[b][b], &sign);
-                value
-            };
+            let (own, next) = (&self.phi[a][a], &self.phi[b][b]);
             let mut squares = Polynomial::monomial([difference, sum]);
             for (index, sign) in [(a, Rational::ONE), (b, Rational::MINUS_ONE)] {
                 let beside = arena.symbol(beside_diagonal(base(index, index)));
                 squares.add_term(vec![beside], &sign);
             }
-            list.extend([
-                (difference, combined(Rational::MINUS_ONE)),
-                (sum, combined(Rational::ONE)),
-                (of_squares, squares),
-            ]);
+            list.extend([(difference, own.sub(next)), (sum, own.add(next)), (of_squares, squares)]);
             // G_kk - tr(G)/n = sum_a w_ka (G_aa - G_bb), w_ka = (n - a)/n for k <= a and -a/n for k > a, counted from 1
             for (k, entry) in diagonal.iter_mut().enumerate() {
                 let weight = if k <= a { part(n - b) } else { -&part(b) };
@@ -89,15 +78,13 @@ impl Strains {
         }
         self.axial_deviators(arena, list);
         let symbols = self.deviator(arena);
-        let mut square = Polynomial::zero();
-        for (a, b) in pairs(n) {
-            square.add_product(&symbols[a][b], &symbols[a][b], &Rational::ONE);
+        for (a, b) in upper(n) {
             let entry = if a == b { diagonal[a].clone() } else { Polynomial::atom(base(a, b).symbol(arena)) };
-            let symbol = symbols[a][b].terms().next().and_then(|(monomial, _)| monomial.first().copied());
-            list.extend(symbol.filter(|_| a <= b).map(|symbol| (symbol, entry)));
+            list.push((symbols.0[a][b], entry));
         }
+        let square = symbols.0.iter().flatten().map(|entry| Polynomial::monomial([*entry; 2])).sum();
         list.push((arena.symbol(Quantity::DeviatorSquared), square));
-        let mean = Polynomial::term(vec![Base::Trace.symbol(arena)], part(1));
+        let mean = Polynomial::term(vec![Base::Trace(1).symbol(arena)], part(1));
         list.push((arena.symbol(Quantity::MeanSquareStretch), mean));
     }
 
@@ -115,18 +102,14 @@ impl Strains {
             Quantity::SecondInvariant,
         ]);
         let sum = |of_mean: Rational, of_square: Rational| {
-            let mut sum = Polynomial::term(vec![mean, mean], of_mean);
-            sum.add_term(vec![square], &of_square);
-            sum
+            Polynomial::term(vec![mean, mean], of_mean).add(&Polynomial::term(vec![square], of_square))
         };
         let values = [
-            (Base::Trace.symbol(arena), Polynomial::term(vec![mean], n.clone())),
-            (Base::TraceOfSquare.symbol(arena), sum(n, Rational::ONE)),
+            (Base::Trace(1).symbol(arena), Polynomial::term(vec![mean], n.clone())),
+            (Base::Trace(2).symbol(arena), sum(n, Rational::ONE)),
             (second, sum(minors, -&Rational::HALF)),
         ];
-        form.substitute(&|atom| {
-            values.iter().find(|(known, _)| *known == atom).map(|(_, value)| value.clone())
-        })
+        form.substitute(&listed(&values))
     }
 }
 

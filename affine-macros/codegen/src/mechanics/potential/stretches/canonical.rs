@@ -57,16 +57,12 @@ impl Form {
         }
         let first = self.terms.values().next().and_then(Rational::recip);
         let first = never_missing(first, "a divisor is not zero, so its form has a term", Rational::ZERO);
-        let mut monic = Self::default();
-        monic.add_scaled(self, &first);
-        let base = through_traces(arena, n, monic).expression(arena, n);
+        let base = through_traces(arena, n, self.scaled(&first)).expression(arena, n);
         Self::factor(n, base, -1, first)
     }
 
     fn factor(n: usize, base: Expr, exponent: i32, coefficient: Rational) -> Self {
-        let mut key = Key::one(n);
-        key.others.push((base, exponent));
-        Self::term(key, coefficient)
+        Self::term(Key { others: vec![(base, exponent)], ..Key::one(n) }, coefficient)
     }
 
     fn applied(self, arena: &mut Arena, n: usize, function: Function) -> Self {
@@ -76,11 +72,9 @@ impl Form {
             Function::Exp => return self.exponential(arena, n, mean),
             Function::Sinh | Function::Cosh if linear => {
                 let half = Rational::HALF;
-                let mut opposite = Self::default();
-                opposite.add_scaled(&self, &Rational::MINUS_ONE);
                 let sign = if function == Function::Sinh { -&half } else { half.clone() };
-                let mut sum = Self::default();
-                sum.add_scaled(&self.exponential(arena, n, mean), &half);
+                let mut sum = self.exponential(arena, n, mean).scaled(&half);
+                let opposite = self.scaled(&Rational::MINUS_ONE);
                 sum.add_scaled(&opposite.exponential(arena, n, mean), &sign);
                 return sum;
             }
@@ -97,39 +91,32 @@ impl Form {
         let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
         let odd = matches!(function, Function::Sin | Function::Sinh | Function::Tan | Function::Tanh);
         let flipped = (even || odd) && self.terms.values().next().is_some_and(Rational::is_negative);
-        let mut argument = Self::default();
-        argument.add_scaled(&self, if flipped { &Rational::MINUS_ONE } else { &Rational::ONE });
+        let argument = if flipped { self.scaled(&Rational::MINUS_ONE) } else { self };
         let argument = through_traces(arena, n, argument).expression(arena, n);
         let value = arena.apply(function, argument);
         let sign = if flipped && odd { Rational::MINUS_ONE } else { Rational::ONE };
         match arena.node(value) {
             Node::Function(..) => Self::factor(n, value, 1, sign),
             // A known value, or what an inverse function left.
-            _ => {
-                let mut form = Self::default();
-                form.add_scaled(&Self::of(arena, n, value), &sign);
-                form
-            }
+            _ => Self::of(arena, n, value).scaled(&sign),
         }
     }
 
     /// Logarithm or root of `exp(c_1 q_1 + ...)`.
     fn of_exponential(n: usize, key: &Key, function: Function, mean: Expr) -> Self {
-        let mut result = Self::default();
-        if function == Function::Ln {
-            for (a, c) in key.exponents.iter().enumerate() {
-                let mut one = Key::one(n);
-                match one.powers.get_mut(a) {
-                    Some(power) => *power = 1,
-                    None => one.others.push((mean, 1)),
-                }
-                result.add(one, c);
-            }
-        } else {
+        if function == Function::Sqrt {
             let half = Rational::HALF;
-            let mut root = key.clone();
-            root.exponents.iter_mut().for_each(|c| *c = &*c * &half);
-            result.add(root, &Rational::ONE);
+            let exponents = key.exponents.iter().map(|c| c * &half).collect();
+            return Self::term(Key { exponents, ..key.clone() }, Rational::ONE);
+        }
+        let mut result = Self::default();
+        for (a, c) in key.exponents.iter().enumerate() {
+            let mut one = Key::one(n);
+            match one.powers.get_mut(a) {
+                Some(power) => *power = 1,
+                None => one.others.push((mean, 1)),
+            }
+            result.add(one, c);
         }
         result
     }
@@ -144,13 +131,10 @@ impl Form {
             }
             let whole = c.to_i64().and_then(|c| i32::try_from(c).ok()).filter(|_| c.is_integer());
             let unit = if whole.is_some() { Rational::ONE } else { c.clone() };
-            let mut argument = Self::default();
-            argument.add(key.clone(), &unit);
-            let argument = argument.expression(arena, n);
+            let argument = Self::term(key.clone(), unit).expression(arena, n);
             let value = arena.apply(Function::Exp, argument);
-            let mut factor = Key::one(n);
-            factor.others.push((value, whole.unwrap_or(1)));
-            product = product.times(&factor);
+            let others = vec![(value, whole.unwrap_or(1))];
+            product = product.times(&Key { others, ..Key::one(n) });
         }
         Self::term(product, Rational::ONE)
     }

@@ -87,6 +87,12 @@ impl Form {
         other.terms.iter().for_each(|(key, c)| self.add(key.clone(), &(c * weight)));
     }
 
+    pub(super) fn scaled(&self, weight: &Rational) -> Self {
+        let mut form = Self::default();
+        form.add_scaled(self, weight);
+        form
+    }
+
     pub(super) fn mul(&self, other: &Self) -> Self {
         let mut product = Self::default();
         for (left, c) in &self.terms {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::algebra::rational::exponent;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::potential::base::{Base, HIGHEST_MULTIPLE, log_stretches};
 
@@ -54,20 +55,13 @@ fn written(arena: &mut Arena, n: usize, degree: u32, part: &Part) -> Option<Form
     if !is_symmetric(n, part) {
         return None;
     }
-    let mut laurent: BTreeMap<Vec<Rational>, Rational> = BTreeMap::new();
-    for ((rest, exponents), c) in through_sum(n, part) {
-        if rest.iter().any(|power| *power > 0) {
-            return None;
-        }
-        laurent.insert(exponents, c);
-    }
-    let value = even_powers(arena, n, laurent)?;
+    let value = even_powers(arena, n, over_power_of_sum(n, degree, part)?)?;
+    let exponent = i32::try_from(degree).ok()?;
     let mut sum = Key::one(n);
-    let count = Rational::from(i64::try_from(n).ok()?).pow(i32::try_from(degree).ok()?)?;
     if degree > 0 {
-        sum.others.push((Base::MeanLogStretch.symbol(arena), i32::try_from(degree).ok()?));
+        sum.others.push((Base::MeanLogStretch.symbol(arena), exponent));
     }
-    Some(value.mul(&Form::term(sum, count)))
+    Some(value.mul(&Form::term(sum, Rational::whole(n).pow(exponent)?)))
 }
 
 /// Unchanged by exchanges of neighbours, which make all permutations.
@@ -82,32 +76,25 @@ fn is_symmetric(n: usize, part: &Part) -> bool {
     })
 }
 
-/// The part in terms of `s = q_1 + ... + q_n` and `q_2, ..., q_n`: exponents of those, for one power of `s`.
-fn through_sum(n: usize, part: &Part) -> Part {
-    let mut result = Part::new();
-    for ((powers, exponents), c) in part {
-        // Exponents of s and q_2, ..., q_n; q_1 = s - q_2 - ... - q_n.
-        let mut sum: BTreeMap<Vec<u32>, Rational> = BTreeMap::from([(vec![0; n], c.clone())]);
-        for _ in 0..powers[0] {
-            let mut next: BTreeMap<Vec<u32>, Rational> = BTreeMap::new();
-            for (monomial, c) in &sum {
-                for k in 0..n {
-                    let mut monomial = monomial.clone();
-                    monomial[k] += 1;
-                    let held = next.entry(monomial).or_insert(Rational::ZERO);
-                    *held = if k == 0 { &*held + c } else { &*held - c };
-                }
-            }
-            sum = next;
-        }
-        for (monomial, c) in sum {
-            let rest: Vec<u32> = monomial[1..].iter().zip(&powers[1..]).map(|(a, b)| a + b).collect();
-            let held = result.entry((rest, exponents.clone())).or_insert(Rational::ZERO);
-            *held = &*held + &c;
-        }
-    }
-    result.retain(|_, c| !c.is_zero());
-    result
+/// What of exponentials stands beside `(q_1 + ... + q_n)^degree`, if the part is such a product: by the multinomial theorem.
+fn over_power_of_sum(n: usize, degree: u32, part: &Part) -> Option<BTreeMap<Vec<Rational>, Rational>> {
+    let leading = part.iter().filter(|((powers, _), _)| powers[0] == degree);
+    let quotient: BTreeMap<Vec<Rational>, Rational> =
+        leading.map(|((_, exponents), c)| (exponents.clone(), c.clone())).collect();
+    let agrees = part.iter().all(|((powers, exponents), c)| {
+        quotient.get(exponents).is_some_and(|leading| *c == leading * &multinomial(powers))
+    });
+    let monomials = multinomial(&[degree, exponent(n - 1).unsigned_abs()]);
+    let count = &monomials * &Rational::whole(quotient.len());
+    (agrees && count == Rational::whole(part.len())).then_some(quotient)
+}
+
+/// `(k_1 + ... + k_n)!/(k_1! ... k_n!)`
+fn multinomial(powers: &[u32]) -> Rational {
+    let factors = powers.iter().flat_map(|power| 1..=*power as usize).zip(1..);
+    factors.fold(Rational::ONE, |product, (below, above)| {
+        &product * &(&Rational::whole(above) * &Rational::one_over(below))
+    })
 }
 
 /// `sum c prod Q_a^(r + 2 k_a)`, symmetric, with integers `k_a >= 0`: Gauss's algorithm for the fundamental theorem on
@@ -115,45 +102,55 @@ fn through_sum(n: usize, part: &Part) -> Part {
 fn even_powers(arena: &mut Arena, n: usize, laurent: BTreeMap<Vec<Rational>, Rational>) -> Option<Form> {
     let least = laurent.keys().flatten().min()?.clone();
     let half = Rational::HALF;
-    let mut open: BTreeMap<Vec<u32>, Rational> = BTreeMap::new();
+    // In powers of Q^2.
+    let mut open = Form::default();
     for (exponents, c) in laurent {
         let doubled = |exponent: &Rational| {
             let k = &(exponent - &least) * &half;
             let k = k.is_integer().then(|| k.to_i64()).flatten().and_then(|k| u32::try_from(k).ok())?;
             (2 * u64::from(k) <= u64::from(HIGHEST_MULTIPLE)).then_some(k)
         };
-        open.insert(exponents.iter().map(doubled).collect::<Option<Vec<u32>>>()?, c);
+        let powers = exponents.iter().map(doubled).collect::<Option<_>>()?;
+        open.add(Key { powers, ..Key::one(n) }, &c);
     }
-    let elementary: Vec<Form> = (1..n).map(|k| invariant(arena, n, k)).collect::<Option<_>>()?;
+    let invariants: Vec<Form> = (1..n).map(|k| invariant(arena, n, k)).collect::<Option<_>>()?;
     let mut result = Form::default();
-    while let Some((leading, c)) = open.pop_last() {
+    while let Some((leading, c)) = open.terms.last_key_value() {
         // prod e_k^(a_k - a_(k+1)) has the same leading monomial.
+        let leading = &leading.powers;
         let steps: Vec<u32> = (0..n)
             .map(|k| leading[k].checked_sub(*leading.get(k + 1).unwrap_or(&0)))
             .collect::<Option<_>>()?;
-        let mut value = Form::term(Key::one(n), c.clone());
-        for (e, step) in elementary.iter().zip(&steps) {
-            value = value.mul(&e.power(n, *step));
-        }
         let mut determinant = Key::one(n);
         let power = &least + &Rational::from(2 * i64::from(steps[n - 1]));
-        determinant.exponents[n] = &power * &Rational::from(i64::try_from(n).ok()?);
-        result.add_scaled(&value.mul(&Form::term(determinant, Rational::ONE)), &Rational::ONE);
-        open.insert(leading, c.clone());
-        for (monomial, weight) in expanded(n, &steps) {
-            let held = open.entry(monomial.clone()).or_insert(Rational::ZERO);
-            *held = &*held - &(&weight * &c);
-            if held.is_zero() {
-                open.remove(&monomial);
-            }
+        determinant.exponents[n] = &power * &Rational::whole(n);
+        let mut value = Form::term(determinant, c.clone());
+        let mut expanded = Form::term(Key::one(n), -c);
+        for (k, step) in steps.iter().enumerate() {
+            expanded = expanded.mul(&elementary(n, k + 1).power(n, *step));
         }
+        for (invariant, step) in invariants.iter().zip(&steps) {
+            value = value.mul(&invariant.power(n, *step));
+        }
+        result.add_scaled(&value, &Rational::ONE);
+        open.add_scaled(&expanded, &Rational::ONE);
     }
     Some(result)
 }
 
+/// `e_k` of what a key has the powers of.
+fn elementary(n: usize, k: usize) -> Form {
+    let mut sum = Form::default();
+    for subset in (0..1u32 << n).filter(|subset| subset.count_ones() as usize == k) {
+        let powers = (0..n).map(|a| subset >> a & 1).collect();
+        sum.add(Key { powers, ..Key::one(n) }, &Rational::ONE);
+    }
+    sum
+}
+
 /// `I_k` in `tr G` and `tr G^2`, `k < n <= 3`.
 fn invariant(arena: &mut Arena, n: usize, k: usize) -> Option<Form> {
-    let [first, second] = [Base::Trace, Base::TraceOfSquare].map(|base| base.symbol(arena));
+    let [first, second] = [1, 2].map(|power| Base::Trace(power).symbol(arena));
     let factor = |symbol: Expr, power: i32| Key { others: vec![(symbol, power)], ..Key::one(n) };
     match k {
         1 => Some(Form::term(factor(first, 1), Rational::ONE)),
@@ -165,25 +162,4 @@ fn invariant(arena: &mut Arena, n: usize, k: usize) -> Option<Form> {
         }
         _ => None,
     }
-}
-
-/// `prod e_k(y)^(steps_k)` multiplied out.
-fn expanded(n: usize, steps: &[u32]) -> BTreeMap<Vec<u32>, Rational> {
-    let mut product: BTreeMap<Vec<u32>, Rational> = BTreeMap::from([(vec![0; n], Rational::ONE)]);
-    for (k, step) in steps.iter().enumerate() {
-        let chosen = (0..1usize << n).filter(|subset| subset.count_ones() as usize == k + 1);
-        for _ in 0..*step {
-            let mut next: BTreeMap<Vec<u32>, Rational> = BTreeMap::new();
-            for subset in chosen.clone() {
-                for (monomial, c) in &product {
-                    let monomial =
-                        (0..n).map(|a| monomial[a] + u32::from(subset >> a & 1 == 1)).collect::<Vec<u32>>();
-                    let held = next.entry(monomial).or_insert(Rational::ZERO);
-                    *held = &*held + c;
-                }
-            }
-            product = next;
-        }
-    }
-    product
 }

@@ -53,10 +53,6 @@ impl Scalars {
         }
         Words::one(Summand { number: Rational::ONE, scalars: vec![index], word: Vec::new() })
     }
-
-    fn all<'a>(&'a self, indices: &'a [usize]) -> impl Iterator<Item = Expression> + 'a {
-        indices.iter().filter_map(|index| self.0.get(*index)).map(|(_, scalar)| scalar.clone())
-    }
 }
 
 impl Words {
@@ -78,16 +74,18 @@ impl Words {
     /// The letter, if there is nothing else.
     pub(super) fn as_letter(&self) -> Option<Letter> {
         match self.summands.as_slice() {
-            [Summand { number, scalars, word }] if *number == Rational::ONE && scalars.is_empty() => {
-                <[Letter; 1]>::try_from(word.as_slice()).ok().map(|[letter]| letter)
+            [Summand { number, scalars, word }]
+                if number.is_one() && scalars.is_empty() && word.len() == 1 =>
+            {
+                word.first().copied()
             }
             _ => None,
         }
     }
 
-    /// Every number times `factor`.
-    pub(super) fn scaled(mut self, factor: &Rational) -> Self {
-        self.summands.iter_mut().for_each(|summand| summand.number = &summand.number * factor);
+    /// Every number with the other sign.
+    pub(super) fn negated(mut self) -> Self {
+        self.summands.iter_mut().for_each(|summand| summand.number = -&summand.number);
         self
     }
 
@@ -113,6 +111,12 @@ impl Words {
             product = product.bounded();
         }
         product
+    }
+
+    /// A power.
+    pub(super) fn power(&self, exponent: u32) -> Self {
+        let power = (0..exponent).fold(Self::number(Rational::ONE), |power, _| power.product(self));
+        Self { degree: self.degree.saturating_mul(u64::from(exponent)).max(1), ..power }
     }
 
     fn bounded(mut self) -> Self {
@@ -187,7 +191,7 @@ impl Summand {
         if size != Rational::ONE {
             factors.push(place(ExpressionKind::Number(size)));
         }
-        factors.extend(scalars.all(&self.scalars));
+        factors.extend(self.scalars.iter().map(|index| scalars.0[*index].1.clone()));
         factors.push(trace);
         let product = factors.into_iter().reduce(|left, right| Operator::Multiply.apply(left, right))?;
         Some((if is_negative { Operator::Subtract } else { Operator::Add }, product))
