@@ -116,7 +116,13 @@ impl Layout {
             Candidate::Vorticity => self.skew(&[sigma_hat]),
             Candidate::CanonicalMomentum => self.matrix(&[pi]),
             Candidate::Casimir1 => vec![((1, 1), self.trace(sigma))],
-            _ => Vec::new(),
+            Candidate::Energy
+            | Candidate::SpinNorm
+            | Candidate::VorticityNorm
+            | Candidate::Casimir2
+            | Candidate::Casimir3
+            | Candidate::DeviatorCasimir2
+            | Candidate::DeviatorCasimir3 => Vec::new(),
         }
     }
 
