@@ -78,11 +78,11 @@ impl Function {
         let mut rest = self.common.taken_from(program)?;
         let argument = |name: &Symbol, rows: &Rows| if in_rows { named(name) } else { table(rows) };
         let arguments = self.arguments.each(argument, list);
-        // One of its matrices may be all that is asked for.
+        // One of its matrices may be all that is asked for: its rows are one result.
         let outputs = rest.outputs.iter().map(|(_, value)| rest.steps[*value].clone());
         let outputs: Vec<Op> = outputs.collect();
         let is_all = |rows: &Rows| rows.iter().flatten().cloned().map(Op::Input).eq(outputs.iter().cloned());
-        if let Some((name, _)) = self.results.matrices.iter().find(|(_, rows)| is_all(rows)) {
+        if in_rows && let Some((name, _)) = self.results.matrices.iter().find(|(_, rows)| is_all(rows)) {
             rest = Program { steps: vec![Op::Input(name.clone())], outputs: vec![(name.clone(), 0)], ..rest };
         }
         let used = rest.inputs();
