@@ -101,13 +101,14 @@ fn items(context: &Context) -> TokenStream {
 
 /// The implementations of the traits of models: of those with coefficients as an argument, and of all.
 fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
-    let Names { prepared, rt, constants, scalar, .. } = context.names;
+    let Names { prepared, rt, scalar, .. } = context.names;
     let (generics, types, clause) = context.generics();
     let n = context.dim();
     let size =
         |equations: &Equations| number(equations.groups.iter().map(|(_, components)| components.len()).sum());
     let (full, reduced) = (size(&context.model.dynamics.full), size(&context.model.dynamics.reduced));
     let point = context.point(&quote!(#scalar));
+    let constants = trajectory::constants(context, scalar);
     let description = description::constant(context);
     let geodesic = closed_form::geodesic(context);
     let (_, bases) = metrics::bases(context);
@@ -125,7 +126,7 @@ fn model_impl(context: &Context) -> (TokenStream, TokenStream) {
             type Point<#scalar: #rt::Real> = #point;
             type Full<#scalar: #rt::Scalar> = [#scalar; #full];
             type Reduced<#scalar: #rt::Scalar> = [#scalar; #reduced];
-            type Constants<#scalar: #rt::Scalar> = #constants<#scalar>;
+            type Constants<#scalar: #rt::Scalar> = #constants;
             #bases
             #methods
         }

@@ -1,14 +1,18 @@
-//! Support for emitted coefficients: one array that holds all of them.
+//! Arrays in emitted code that hold several things, one after the other.
 
 use crate::frames::Matrix;
 use crate::metrics::Bases;
 use crate::scalar::Scalar;
 
-/// The numbers among the values of fields, and the entries of matrices after them.
-#[must_use]
-pub fn joined<const ALL: usize>(parts: &[&[f64]]) -> [f64; ALL] {
-    let mut entries = parts.iter().copied().flatten().copied();
-    core::array::from_fn(|_| entries.next().unwrap_or(f64::NAN))
+/// The entries of the parts, one after the other.
+#[inline]
+pub fn joined<T: Scalar, const PARTS: usize, const ALL: usize>(parts: [&[T]; PARTS]) -> [T; ALL] {
+    let mut all = [T::zero(); ALL];
+    let mut places = all.iter_mut();
+    for part in parts {
+        part.iter().zip(&mut places).for_each(|(entry, place)| *place = *entry);
+    }
+    all
 }
 
 /// The rows of a matrix, from its entries.
@@ -16,7 +20,8 @@ pub fn table<T, const K: usize>(entry: impl Fn(usize, usize) -> T) -> [[T; K]; K
     core::array::from_fn(|row| core::array::from_fn(|column| entry(row, column)))
 }
 
-/// The rows of a matrix among the values of fields, whose first entry stands at a place.
+/// The rows of a matrix whose first entry stands at a place of an array.
+#[inline]
 pub fn square<const K: usize, T: Scalar, const ALL: usize>(values: &[T; ALL], first: usize) -> [[T; K]; K] {
     table(|row, column| values.get(first + row * K + column).copied().unwrap_or_else(T::zero))
 }

@@ -56,6 +56,31 @@ pub struct Description {
     pub left_out: &'static [LeftOut],
 }
 
+impl Description {
+    /// What is true of a model of which nothing else is said.
+    #[doc(hidden)]
+    pub const PLAIN: Self = Self {
+        name: "",
+        kinetic_energy: Formula::plain(""),
+        hamiltonian: Formula::plain(""),
+        equations: &[],
+        reduced_equations: &[],
+        signature: None,
+        conserved: &[],
+        conserved_at_rest: &[],
+        full: &[],
+        reduced: &[],
+        full_operations: Operations::NONE,
+        reduced_operations: Operations::NONE,
+        constraint: None,
+        second_order: false,
+        series: true,
+        domain: &[],
+        angles: &[],
+        left_out: &[],
+    };
+}
+
 /// Something that is not integrated, and in which runs it is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -79,6 +104,14 @@ pub enum Scope {
     Carried,
     /// Those in closed form.
     ClosedForm,
+}
+
+impl Scope {
+    /// Something that these runs do without.
+    #[must_use]
+    pub const fn without(self, what: Word) -> LeftOut {
+        LeftOut { what, scope: self }
+    }
 }
 
 /// A part of a potential that has a value only where a function of the state keeps its sign. The values of these functions
@@ -151,7 +184,13 @@ pub struct Operations {
 
 impl Operations {
     /// No operation of any kind.
-    pub const NONE: Self = Self { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
+    pub const NONE: Self = Self::arithmetic(0, 0, 0);
+
+    /// So many multiplications, additions and divisions, and nothing else.
+    #[must_use]
+    pub const fn arithmetic(mul: usize, add: usize, div: usize) -> Self {
+        Self { mul, add, div, sqrt: 0, exp: 0, ln: 0 }
+    }
 }
 
 /// A quantity that a model may conserve.

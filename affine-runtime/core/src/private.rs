@@ -29,8 +29,8 @@ pub use crate::metrics::forms::{rebased_inertia, rebased_tensor, told_in_given_b
 pub use crate::metrics::quantities::{form_in_given_bases, inverse_in_given_bases};
 pub use crate::metrics::{Bases, orthonormal};
 pub use crate::model::{
-    Bound, Component, Conserved, Constraint, Description, Entry, Formula, Group, Guard, Handle, LeftOut,
-    Model, Operations, Quantity, Regularity, Scope, Velocity,
+    Bound, Component, Conserved, Constraint, Description, Entry, Formula, Group, Guard, Handle, Model,
+    Operations, Quantity, Regularity, Scope, Velocity,
 };
 pub use crate::packed::{Four, Packed};
 pub use crate::parametric::{Field, Fields, Parametric};

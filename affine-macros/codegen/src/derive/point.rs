@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use crate::algebra::bind::Constants;
+use crate::algebra::ring::Square;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
@@ -35,21 +36,26 @@ impl Body<'_> {
             fuse(&shortest_program(arena, ways, coefficients, &varies))
         };
         let velocities = Matrix::symbols(arena, frame.velocity(), n);
-        let momenta = Matrix::symbols(arena, frame.momentum(), n);
         let [x_dot, v_hat, p] =
             [Quantity::CentreVelocity, Quantity::ComovingCentreVelocity, Quantity::LinearMomentum]
                 .map(|of| arena.components(of, n));
         let moving = [x_dot.clone(), v_hat, moving_matrices(arena, n)].concat();
         let forms = self.motion.legendre(arena);
         let kinetic_energy = forms.first().map(|form| self.kinetic_energy(arena, form, &moving));
-        let legendre = |Legendre { shared, momentum, .. }: Legendre| {
-            given(arena, Batch { shared, ..matrix_batch(arena, &momenta, &momentum) }, &moving)
+        let legendre = |Legendre { shared, momenta, .. }: Legendre| {
+            let named = |(frame, values): (Frame, Square<Polynomial>)| {
+                let names = Matrix::symbols(arena, frame.momentum(), n);
+                matrix_batch(arena, &names, &values).results
+            };
+            let results = momenta.into_iter().flat_map(named).collect();
+            given(arena, Batch { shared, results, ..Batch::default() }, &moving)
         };
         let legendre: Vec<Batch> = forms.into_iter().map(legendre).collect();
         let legendre = kinetic_energy.is_some().then(|| program(arena, &legendre, &moving));
         let (shared, values) = self.motion.velocity(arena);
         let velocity = Batch { shared, ..matrix_batch(arena, &velocities, &values) };
-        let velocity = program(arena, from_ref(&velocity), &momenta.0.concat());
+        let momenta = Matrix::symbols(arena, frame.momentum(), n).0.concat();
+        let velocity = program(arena, from_ref(&velocity), &momenta);
         let velocity_side = legendre.zip(kinetic_energy).map(|(legendre, energy)| VelocitySide {
             legendre,
             kinetic_energy: program(arena, from_ref(&energy), &moving),

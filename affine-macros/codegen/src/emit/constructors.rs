@@ -5,11 +5,12 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::number::Number;
+use super::pattern::{ident, in_rows};
 use super::point::{Moving, moving, wrapper};
 use super::{mixed, quantities, refused};
 
@@ -156,13 +157,22 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
     let programs: Vec<&Program> = [program].into_iter().chain(masses).collect();
     let Moving { lets: moving, .. } = moving(context, &programs, &quote!(&phi), &quote!(x_dot));
     let Body { lets, results } = context.double(program);
-    let rows_out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
-    let wrapper = wrapper(context, context.model.spin());
-    quote! {
-        #moving
-        #lets
-        let spin = #wrapper(#rt::matrix([#(#rows_out),*]));
+    let n = context.model.dim;
+    let names = program.results().step_by(n * n).filter_map(Symbol::quantity);
+    let (mut momenta, mut sum) = (TokenStream::new(), TokenStream::new());
+    for (of, entries) in names.zip(results.chunks(n * n)) {
+        let (name, rows) = (ident(&of.into()), in_rows(entries, n));
+        momenta.extend(quote!(let #name = #rt::matrix(#rows);));
+        // `Pi = Sigma_hat phi^-1 + phi^-1 Sigma` of a sum of energies on all placements.
+        let summand = match of {
+            _ if of == context.model.frame.momentum() => quote!(#name),
+            Quantity::ComovingAffineSpin => quote!(#name * phi_inverse),
+            _ => quote!(phi_inverse * #name),
+        };
+        sum = if sum.is_empty() { summand } else { quote!(#sum + #summand) };
     }
+    let wrapper = wrapper(context, context.model.spin());
+    quote!(#moving #lets #momenta let spin = #wrapper(#sum);)
 }
 
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).

@@ -24,6 +24,16 @@ pub(super) enum Coefficients {
     Own,
 }
 
+impl Coefficients {
+    /// Those of a method at one point: what is generic is given them.
+    pub(super) fn of(number: Number) -> Self {
+        match number {
+            Number::Generic(_) => Self::Given,
+            Number::Double => Self::Own,
+        }
+    }
+}
+
 /// What every emitter reads.
 pub(super) struct Context<'a> {
     pub(super) spec: &'a Spec,
@@ -151,7 +161,18 @@ impl Context<'_> {
 
     /// The same with coefficients that are read first, and what several programs compute called.
     pub(super) fn body(&self, program: &Program, number: Number, coefficients: Coefficients) -> Body {
-        let called = self.common.as_ref().and_then(|function| function.called_by(program));
+        let called = self.common.as_ref().and_then(|function| function.called_by(program, false));
+        self.calling(program, called, number, coefficients)
+    }
+
+    /// The same with this call, and what it leaves of the program.
+    pub(super) fn calling(
+        &self,
+        program: &Program,
+        called: Option<(TokenStream, Program)>,
+        number: Number,
+        coefficients: Coefficients,
+    ) -> Body {
         let (call, rest) = called.unzip();
         let Body { lets, results } = self.written(rest.as_ref().unwrap_or(program), number);
         let read = program.symbols().filter_map(|symbol| {
@@ -192,11 +213,7 @@ impl Context<'_> {
         {
             return (TokenStream::new(), value);
         }
-        let coefficients = match number {
-            Number::Generic(_) => Coefficients::Given,
-            Number::Double => Coefficients::Own,
-        };
-        let body = self.body(&program, number, coefficients);
+        let body = self.body(&program, number, Coefficients::of(number));
         let (lets, name, result) = (&body.lets, ident(&factor), body.result());
         (quote!(#lets let #name = #result;), quote!(#value * #name))
     }

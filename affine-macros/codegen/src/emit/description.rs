@@ -137,28 +137,27 @@ pub(super) fn counts(operations: Operations) -> String {
 /// Operation counts as an expression.
 pub(super) fn operations(context: &Context, o: Operations) -> TokenStream {
     let rt = &context.names.rt;
-    let counts =
-        [("mul", o.mul), ("add", o.add), ("div", o.div), ("sqrt", o.sqrt), ("exp", o.exp), ("ln", o.ln)];
-    let taken = counts.iter().filter(|(_, count)| *count > 0).map(|(name, count)| {
+    let [mul, add, div] = [o.mul, o.add, o.div].map(number);
+    let arithmetic = quote!(#rt::Operations::arithmetic(#mul, #add, #div));
+    let others = [("sqrt", o.sqrt), ("exp", o.exp), ("ln", o.ln)];
+    let others = others.iter().filter(|(_, count)| *count > 0).map(|(name, count)| {
         let (name, count) = (format_ident!("{name}"), number(*count));
-        quote!(#name: #count)
+        quote!(#name: #count,)
     });
-    let others = counts.iter().any(|(_, count)| *count == 0).then(|| quote!(..#rt::Operations::NONE));
-    let fields = taken.chain(others);
-    quote!(#rt::Operations { #(#fields),* })
+    let others: TokenStream = others.collect();
+    if others.is_empty() { arithmetic } else { quote!(#rt::Operations { #others ..#arithmetic }) }
 }
 
 /// What the plain array and the reduced state have both, as the values of two fields, and the statement before these where it
 /// is the same of both.
 fn of_both<D: PartialEq + ?Sized>(
     [full, reduced]: [(&str, &D); 2],
-    ty: &TokenStream,
     written: impl Fn(&D) -> TokenStream,
 ) -> (TokenStream, TokenStream) {
     let [name, other] = [full.0, reduced.0].map(|name| format_ident!("{name}"));
     let value = written(full.1);
     if full.1 == reduced.1 {
-        return (quote!(let #name: #ty = #value;), quote!(#name, #other: #name,));
+        return (quote!(let #name = #value;), quote!(#name, #other: #name,));
     }
     let differing = written(reduced.1);
     (TokenStream::new(), quote!(#name: #value, #other: #differing,))
@@ -183,37 +182,22 @@ pub(super) fn constant(context: &Context) -> TokenStream {
     let hamiltonian = formula(context, &formulas.hamiltonian.text, formulas.hamiltonian.latex.as_deref());
     let left_out = formulas.left_out.iter().map(|left_out| {
         let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
-        quote!(#rt::LeftOut { what: #what, scope: #rt::Scope::#scope })
+        quote!(#rt::Scope::#scope.without(#what))
     });
-    let domain = domain::guards(context);
-    let angles = domain::angles(context);
-    let signature = match model.description.signature {
-        Some((p, q)) => {
-            let (p, q) = (number(p), number(q));
-            quote!(::core::option::Option::Some((#p, #q)))
-        }
-        None => quote!(::core::option::Option::None),
-    };
     let both = [
-        of_both(
-            [("equations", &formulas.equations), ("reduced_equations", &formulas.reduced)],
-            &quote!(&[#rt::Formula]),
-            |list| {
-                let list = list.iter().map(|f| formula(context, &f.text, f.latex.as_deref()));
-                quote!(&[#(#list),*])
-            },
-        ),
+        of_both([("equations", &formulas.equations), ("reduced_equations", &formulas.reduced)], |list| {
+            let list = list.iter().map(|f| formula(context, &f.text, f.latex.as_deref()));
+            quote!(&[#(#list),*])
+        }),
         of_both(
             [
                 ("conserved", &model.description.conserved),
                 ("conserved_at_rest", &model.description.conserved_at_rest),
             ],
-            &quote!(&[#rt::Conserved]),
             |list| conserved(context, list),
         ),
         of_both(
             [("full", &model.dynamics.full.groups), ("reduced", &model.dynamics.reduced.groups)],
-            &quote!(&[#rt::Group]),
             |list| groups(context, list),
         ),
         of_both(
@@ -221,31 +205,42 @@ pub(super) fn constant(context: &Context) -> TokenStream {
                 ("full_operations", &model.dynamics.full.program.operations()),
                 ("reduced_operations", &model.dynamics.reduced.program.operations()),
             ],
-            &quote!(#rt::Operations),
             |count| operations(context, *count),
         ),
     ];
     let (shared, fields): (TokenStream, TokenStream) = both.into_iter().unzip();
-    let constraint = match context.constraint() {
-        Some(group) => quote!(::core::option::Option::Some(#group)),
-        None => quote!(::core::option::Option::None),
-    };
     // The multiplier of a constraint depends on the velocity.
     let second_order = model.constraint.is_none() && model.dynamics.reduced.is_second_order();
-    let series = model.dynamics.reduced.has_series();
+    let named = |name: &str, value: TokenStream| {
+        let name = format_ident!("{name}");
+        quote!(#name: #value,)
+    };
+    let some = |value: TokenStream| quote!(::core::option::Option::Some(#value));
+    let list = |entries: Vec<TokenStream>| (!entries.is_empty()).then(|| quote!(&[#(#entries),*]));
+    let said = [
+        (
+            "signature",
+            model.description.signature.map(|(p, q)| {
+                let (p, q) = (number(p), number(q));
+                some(quote!((#p, #q)))
+            }),
+        ),
+        ("constraint", context.constraint().map(some)),
+        ("second_order", second_order.then(|| quote!(true))),
+        ("series", (!model.dynamics.reduced.has_series()).then(|| quote!(false))),
+        ("domain", list(domain::guards(context))),
+        ("angles", list(domain::angles(context))),
+        ("left_out", list(left_out.collect())),
+    ];
+    let said = said.into_iter().filter_map(|(name, value)| value.map(|value| named(name, value)));
     let description = quote! {
         #rt::Description {
             name: #name,
             kinetic_energy: #kinetic_energy,
             hamiltonian: #hamiltonian,
             #fields
-            signature: #signature,
-            constraint: #constraint,
-            second_order: #second_order,
-            series: #series,
-            domain: #domain,
-            angles: #angles,
-            left_out: &[#(#left_out),*],
+            #(#said)*
+            ..#rt::Description::PLAIN
         }
     };
     if shared.is_empty() { description } else { quote!({ #shared #description }) }

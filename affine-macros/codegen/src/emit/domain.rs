@@ -1,16 +1,18 @@
 //! Where the potential has a value.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use crate::derive::{Domain, Sign, SignedArgument};
 
+use super::body::Body;
 use super::context::{Coefficients, Context};
+use super::number::Number;
 use super::pattern::time;
-use super::point::{at_placement, bind_point};
+use super::point::at_point;
 
 /// The functions of the state that keep their sign, in the description of the model.
-pub(super) fn guards(context: &Context) -> TokenStream {
+pub(super) fn guards(context: &Context) -> Vec<TokenStream> {
     let rt = &context.names.rt;
     let arguments = context.model.point.domain.iter().flat_map(Domain::arguments);
     let guards = arguments.map(|SignedArgument { part, argument, sign }| {
@@ -21,13 +23,13 @@ pub(super) fn guards(context: &Context) -> TokenStream {
         };
         quote!(#rt::Guard { part: #part, argument: #argument, bound: #rt::Bound::#bound })
     });
-    quote!(&[#(#guards),*])
+    guards.collect()
 }
 
 /// The parts of the potential with an angle that the time turns.
-pub(super) fn angles(context: &Context) -> TokenStream {
+pub(super) fn angles(context: &Context) -> Vec<TokenStream> {
     let parts = context.model.point.domain.iter().flat_map(Domain::angles);
-    quote!(&[#(#parts),*])
+    parts.map(ToTokens::to_token_stream).collect()
 }
 
 /// `domain`: nothing where the potential has a value at every state.
@@ -36,18 +38,14 @@ pub(super) fn values(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
     let program = &domain.program;
     let (time, inward) = (time(program), context.inward(Coefficients::Own));
-    let (bound, placed) = (bind_point(context, program), at_placement(context, program));
-    let body = context.double(program);
-    let (lets, values) = (&body.lets, &body.results);
-    let (point, inward) = match bound.is_empty() && placed.is_empty() {
-        true => (quote!(_point), TokenStream::new()),
-        false => (quote!(point), inward),
+    let (Body { lets, results: values }, reads) = at_point(context, program, Number::Double);
+    let (point, inward) = match reads {
+        true => (quote!(point), inward),
+        false => (quote!(_point), TokenStream::new()),
     };
     quote! {
         fn domain(&self, #time: #rt::f64, #point: &Self::Point<#rt::f64>, each: &mut dyn ::core::ops::FnMut(#rt::f64)) {
             #inward
-            #bound
-            #placed
             #lets
             #(each(#values);)*
         }

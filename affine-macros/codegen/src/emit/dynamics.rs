@@ -7,15 +7,15 @@ use quote::{format_ident, quote};
 
 use crate::derive::{Components, VelocitySide};
 use crate::ir::Program;
-use crate::symbol::Quantity;
+use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::mixed;
-use super::number::Number;
+use super::number::{Number, number};
 use super::parametric::{Evaluation, Method};
-use super::pattern::{components, entries, identifiers, pattern, table, table_pattern, time};
-use super::point::{Moving, at_placement, bind_components, bind_point, moving, own_spin, placement, wrapper};
+use super::pattern::{components, entries, in_rows, list, pattern, table, time};
+use super::point::{Moving, at_point, bind_components, group_of_point, is_vector, moving, wrapper};
 
 /// The methods that do not reduce.
 pub(super) fn methods(context: &Context) -> Vec<Method> {
@@ -33,18 +33,17 @@ pub(super) fn methods(context: &Context) -> Vec<Method> {
 
 fn velocity(context: &Context) -> TokenStream {
     let (rt, t, n) = (&context.names.rt, &context.names.scalar, context.dim());
-    let spin = own_spin(context);
-    let entries = entries(context.model.frame.momentum(), context.model.dim);
-    let entries = table_pattern(&entries, &context.model.point.velocity.inputs());
-    let Body { lets, results } = context.generic(&context.model.point.velocity, Coefficients::Given);
-    let out = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
-    let velocity = quote!(#rt::matrix([#(#out),*]));
+    let (Body { lets, results }, _) = at_point(context, &context.model.point.velocity, Number::Generic(t));
+    let rows = match results.as_slice() {
+        [rows] => rows.clone(),
+        entries => in_rows(entries, context.model.dim),
+    };
+    let velocity = quote!(#rt::matrix(#rows));
     let phi_dot = match context.model.spin() {
         Components::Comoving => quote!(#rt::Phase::phi(point) * #velocity),
         Components::Spatial => quote!(#velocity * #rt::Phase::phi(point)),
         Components::TwoPoint => velocity,
     };
-    let placement = placement(context, &context.model.point.velocity, &quote!(#rt::Phase::phi(point)));
     let (mass, x_dot) = match (&context.model.point.mass, context.model.centre()) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
         (Some(program), Some(components)) => {
@@ -57,7 +56,7 @@ fn velocity(context: &Context) -> TokenStream {
         _ => (TokenStream::new(), quote!(#rt::Vector::<#n, #t>::zeros())),
     };
     let inward = context.inward(Coefficients::Given);
-    let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot });
+    let velocity = quote!(#rt::Velocity { x_dot: #x_dot, phi_dot: #phi_dot });
     let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
     let velocity = match context.model.metrics {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
@@ -71,10 +70,7 @@ fn velocity(context: &Context) -> TokenStream {
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
-            let #entries = #rt::rows(&#spin);
-            #placement
             #lets
-            let phi_dot = #phi_dot;
             #mass
             #velocity
         }
@@ -130,7 +126,12 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.point.hamiltonian;
     let time = time(program);
-    let near = energy(context, program);
+    let energy = |program: &Program| {
+        let (body, _) = at_point(context, program, Number::Generic(t));
+        let (lets, energy) = (&body.lets, body.result());
+        quote!(#lets #energy)
+    };
+    let near = energy(program);
     let inward = context.inward(Coefficients::Given);
     let programs: Vec<Program> =
         [program].into_iter().chain(&context.model.point.hamiltonian_far_away).cloned().collect();
@@ -143,7 +144,7 @@ fn hamiltonian(context: &Context) -> TokenStream {
             }
         };
     };
-    let far_away = energy(context, program);
+    let far_away = energy(program);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
             #inward
@@ -156,49 +157,59 @@ fn hamiltonian(context: &Context) -> TokenStream {
     }
 }
 
-/// `H` of `point`, by a program.
-fn energy(context: &Context, program: &Program) -> TokenStream {
-    let bound = bind_point(context, program);
-    let placed = at_placement(context, program);
-    let body = context.generic(program, Coefficients::Given);
-    let (lets, energy) = (&body.lets, body.result());
-    quote! {
-        #bound
-        #placed
-        #lets
-        #energy
-    }
-}
-
 /// `flatten` and `unflatten`.
 fn flat(context: &Context) -> TokenStream {
     let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let n = context.model.dim;
-    let all = context.model.dynamics.full.symbols();
-    let names = identifiers(&all);
-    let bound = bind_components(context, &all);
-    let rows = |of: Quantity| {
-        let rows = table(&entries(of, n));
+    let (n, dim) = (context.model.dim, context.dim());
+    let full = &context.model.dynamics.full;
+    let all = full.symbols();
+    // Where the entries of a matrix stand in the array, if all of them do.
+    let place = |of: Quantity| {
+        let entries = entries(of, n).concat();
+        all.windows(entries.len()).position(|part| *part == entries).map(number)
+    };
+    let parts = full.groups.iter().map(|(of, symbols)| {
+        let (value, entries) = (group_of_point(context, *of), list(symbols));
+        match (is_vector(*of), place(*of)) {
+            (true, _) => quote!(&#value),
+            (false, Some(_)) => quote!(#value.as_flattened()),
+            (false, None) => quote!(&#entries),
+        }
+    });
+    let apart = |vectors: bool| -> Vec<Symbol> {
+        let groups =
+            full.groups.iter().filter(|(of, _)| place(*of).is_none() && (vectors || !is_vector(*of)));
+        groups.flat_map(|(_, symbols)| symbols.clone()).collect()
+    };
+    let bound = bind_components(context, &apart(false), |_| false);
+    let read = apart(true);
+    let pattern = pattern(&all, &read);
+    let read = (!read.is_empty()).then(|| quote!(let #pattern = *full;));
+    let matrix = |of: Quantity| {
+        let rows = match place(of) {
+            Some(place) => quote!(#rt::square(full, #place)),
+            None => table(&entries(of, n)),
+        };
         quote!(#rt::matrix(#rows))
     };
     let vector = |of: Quantity| {
-        let names = identifiers(&components(of, n));
-        quote!(#rt::vector([#(#names),*]))
+        let components = list(&components(of, n));
+        quote!(#rt::vector(#components))
     };
-    let own = rows(context.model.frame.momentum());
-    let (phi, wrap) = (rows(Quantity::Placement), wrapper(context, context.model.spin()));
-    let dependent = context.dependent(&context.model.dynamics.full);
-    let comoving = context.model.dynamics.full.has(Quantity::ComovingLinearMomentum);
-    let centre = match (context.model.translation, comoving) {
-        (None, _) => quote!(let centre = #rt::Pinned;),
-        (Some(_), false) => {
-            let (x, p) = (vector(Quantity::Position), vector(Quantity::LinearMomentum));
-            quote!(let centre = #rt::Centre { x: #x, p: #p };)
+    let own = matrix(context.model.frame.momentum());
+    let (phi, wrap) = (matrix(Quantity::Placement), wrapper(context, context.model.spin()));
+    let dependent = context.dependent(full);
+    let p = match full.has(Quantity::ComovingLinearMomentum) {
+        false => vector(Quantity::LinearMomentum),
+        true => {
+            let p_hat = vector(Quantity::ComovingLinearMomentum);
+            quote!(#rt::inverse(&phi).tr_mul(&#p_hat))
         }
-        (Some(_), true) => {
-            let (x, p_hat) = (vector(Quantity::Position), vector(Quantity::ComovingLinearMomentum));
-            quote!(let centre = #rt::Centre { x: #x, p: #rt::inverse(&phi).tr_mul(&#p_hat) };)
-        }
+    };
+    let x = vector(Quantity::Position);
+    let (centre, its_value) = match context.model.translation {
+        None => (None, quote!(#rt::Pinned)),
+        Some(_) => (Some(quote!(let centre = #rt::Centre { x: #x, p: #p };)), quote!(centre)),
     };
     let [(flatten, parameter), (unflatten, _)] = ["flatten", "unflatten"].map(|name| {
         if !context.has_prepared_bases() {
@@ -208,19 +219,19 @@ fn flat(context: &Context) -> TokenStream {
         (name, parameter)
     });
     let inward = context.inward(Coefficients::Given);
-    let point = quote!(#rt::point(phi, #wrap(#own), centre));
+    let point = quote!(#rt::point(phi, #wrap(#own), #its_value));
     let point = context.outward(&quote!(#t), point, Coefficients::Given);
     quote! {
         fn #flatten<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> Self::Full<#t> {
             #inward
             #bound
-            [#(#names),*]
+            #rt::joined([#(#parts),*])
         }
 
         fn #unflatten<#t: #rt::Real>(&self, #parameter full: &Self::Full<#t>) -> Self::Point<#t> {
-            let [#(#names),*] = *full;
+            #read
             #dependent
-            let phi = #phi;
+            let phi: #rt::Matrix<#dim, #t> = #phi;
             #centre
             #point
         }

@@ -16,21 +16,22 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
     let (t, constants) = (&context.names.scalar, &context.names.constants);
     let stored = trajectory::kept(context, &[]);
-    let (argument, lane, marker) = if stored.is_empty() {
-        (quote!(_constants), quote!(_lane), Some(quote!(scalar: ::core::marker::PhantomData)))
-    } else {
-        (quote!(constants), quote!(lane), None)
+    let (argument, lane) = match stored.is_empty() {
+        true => (quote!(_constants), quote!(_lane)),
+        false => (quote!(constants), quote!(lane)),
     };
-    let gathered = stored
-        .iter()
-        .map(|field| field.with(context, |entry| quote!(#rt::gathered(constants, |lane| lane.#entry))));
-    let of_lane =
-        stored.iter().map(|field| field.with(context, |entry| quote!(#rt::in_lane(&constants.#entry, lane))));
+    // Where there are no constants, there is nothing to say.
+    let of = |entry: &dyn Fn(TokenStream) -> TokenStream| {
+        let fields = stored.iter().map(|field| field.with(context, entry));
+        (!stored.is_empty()).then(|| quote!(#constants { #(#fields),* }))
+    };
+    let gathered = of(&|entry| quote!(#rt::gathered(constants, |lane| lane.#entry)));
+    let of_lane = of(&|entry| quote!(#rt::in_lane(&constants.#entry, lane)));
     let items = quote! {
         fn constants_in_lanes<#t: #rt::Lanes>(
             #argument: &[Self::Constants<#rt::f64>],
         ) -> Self::Constants<#t> {
-            #constants { #(#gathered,)* #marker }
+            #gathered
         }
 
         #[inline(always)]
@@ -38,7 +39,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
             #argument: &Self::Constants<#t>,
             #lane: #rt::usize,
         ) -> Self::Constants<#t::Lane> {
-            #constants { #(#of_lane,)* #marker }
+            #of_lane
         }
     };
     context.implementation("InLanes", &items)

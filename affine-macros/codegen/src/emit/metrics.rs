@@ -9,6 +9,7 @@ use super::body::Body;
 use super::context::Context;
 use super::fields::{matrix_name, over_fields};
 use super::number::{exact_table, number};
+use super::pattern::in_rows;
 use crate::ir::Program;
 
 /// The bases as a function of the scalar, where they are known, and the methods of the trait that tell of them.
@@ -73,9 +74,9 @@ pub(super) fn found(context: &Context, [space, body]: &[Program; 2]) -> TokenStr
     let (rt, n) = (&context.names.rt, context.dim());
     let orthonormal = |name: &str, program: &Program| {
         let Body { lets, results } = over_fields(context.names, program);
-        let rows = results.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
+        let rows = in_rows(&results, context.model.dim);
         let condition = format!("{name} > 0");
-        let bases = quote!(#rt::orthonormal::<#n, _>([#(#rows),*], #condition)?);
+        let bases = quote!(#rt::orthonormal::<#n, _>(#rows, #condition)?);
         if lets.is_empty() { bases } else { quote!({ #lets #bases }) }
     };
     let (space, body) = (orthonormal("g", space), orthonormal("eta", body));
@@ -93,8 +94,7 @@ pub(super) fn rebased(context: &Context, matrix: &GivenMatrix) -> TokenStream {
     };
     let Body { lets, results } = over_fields(context.names, entries);
     let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
-    let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
-    let entries = quote!([#(#rows),*]);
+    let entries = in_rows(&results, size);
     let value = match (tensor, components) {
         (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
         (false, _) => quote!(#rt::rebased_inertia::<#n, _>(&bases.body, #entries)),

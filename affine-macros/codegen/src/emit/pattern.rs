@@ -39,7 +39,8 @@ fn bound_if(is_used: bool, symbol: &Symbol) -> TokenStream {
 
 /// The same of many components: it ends behind the last that is used.
 pub(super) fn leading_pattern(components: &[Symbol], used: &[Symbol]) -> TokenStream {
-    let end = components.iter().rposition(|symbol| used.contains(symbol)).map_or(0, |last| last + 1);
+    let Some(last) = components.iter().rposition(|symbol| used.contains(symbol)) else { return quote!(_) };
+    let end = last + 1;
     let bind = components[..end].iter().map(|symbol| bound_if(used.contains(symbol), symbol));
     let rest = (end < components.len()).then(|| quote!(..));
     let parts = bind.chain(rest);
@@ -62,12 +63,30 @@ pub(super) fn table_pattern(rows: &[Vec<Symbol>], used: &[Symbol]) -> TokenStrea
     quote!([#(#rows),*])
 }
 
-/// A matrix as an expression, or as a pattern that binds all of it.
+/// The statement that binds the entries that are used of a matrix that stands in a variable of its name.
+pub(super) fn bound_entries(name: &Symbol, rows: &[Vec<Symbol>], used: &[Symbol]) -> TokenStream {
+    if !reads(used, &rows.concat()) {
+        return TokenStream::new();
+    }
+    let (bound, name) = (table_pattern(rows, used), ident(name));
+    quote!(let #bound = #name;)
+}
+
+/// A list as an expression, or as a pattern that binds all of it.
+pub(super) fn list(symbols: &[Symbol]) -> TokenStream {
+    let names = identifiers(symbols);
+    quote!([#(#names),*])
+}
+
+/// A matrix likewise.
 pub(super) fn table(rows: &[Vec<Symbol>]) -> TokenStream {
-    let rows = rows.iter().map(|row| {
-        let row = identifiers(row);
-        quote!([#(#row),*])
-    });
+    let rows = rows.iter().map(|row| list(row));
+    quote!([#(#rows),*])
+}
+
+/// Results, so many a row.
+pub(super) fn in_rows(results: &[TokenStream], size: usize) -> TokenStream {
+    let rows = results.chunks(size).map(|row| quote!([#(#row),*]));
     quote!([#(#rows),*])
 }
 

@@ -7,8 +7,10 @@ use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
 use crate::symbol::{Quantity, Symbol};
 
-use super::context::Context;
-use super::pattern::{components, entries, ident, pattern, reads, table_pattern};
+use super::body::Body;
+use super::context::{Coefficients, Context};
+use super::number::Number;
+use super::pattern::{bound_entries, components, entries, ident, pattern, reads, table_pattern};
 
 /// The model's own affine spin of `point`, as a matrix.
 pub(super) fn own_spin(context: &Context) -> TokenStream {
@@ -90,50 +92,61 @@ pub(super) fn projected(context: &Context, momentum: TokenStream) -> TokenStream
     }
 }
 
-/// `let` statements that bind the components of `point` that a program reads.
-pub(super) fn bind_point(context: &Context, program: &Program) -> TokenStream {
-    bind_components(context, &program.inputs())
-}
-
-/// `let` statements that bind these components of `point`.
-pub(super) fn bind_components(context: &Context, used: &[Symbol]) -> TokenStream {
-    let rt = &context.names.rt;
-    let spin = own_spin(context);
-    let mut lets = TokenStream::new();
-    for (group, symbols) in &context.model.dynamics.full.groups {
-        if !reads(used, symbols) {
-            continue;
+/// A program at `point`, after the statements that bind what it reads there. And does it read anything?
+pub(super) fn at_point(context: &Context, program: &Program, number: Number) -> (Body, bool) {
+    let common = context.common.as_ref();
+    let called = common.and_then(|function| function.called_by(program, true));
+    let bound = match (common, &called) {
+        (Some(function), Some((_, rest))) => {
+            let read = [&rest.inputs(), function.numbers()].concat();
+            bind_components(context, &read, |group| function.takes(group))
         }
-        let value = match *group {
-            Quantity::Position => quote!(#rt::components(&#rt::Phase::x(point))),
-            Quantity::Placement => quote!(#rt::rows(#rt::Phase::phi(point))),
-            Quantity::LinearMomentum => quote!(#rt::components(&#rt::Phase::p(point))),
-            Quantity::ComovingLinearMomentum => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
-            _ => quote!(#rt::rows(&#spin)),
-        };
-        lets.extend(bind_group(context, *group, symbols, used, &value));
-    }
-    lets
-}
-
-/// Binds the components of a vector or a matrix that are both in a group of the array and used.
-fn bind_group(
-    context: &Context,
-    group: Quantity,
-    symbols: &[Symbol],
-    used: &[Symbol],
-    value: &TokenStream,
-) -> TokenStream {
-    let bound = match group {
-        Quantity::Position | Quantity::LinearMomentum | Quantity::ComovingLinearMomentum => {
-            pattern(symbols, used)
-        }
-        _ => {
-            let used: Vec<Symbol> = used.iter().filter(|symbol| symbols.contains(symbol)).cloned().collect();
-            table_pattern(&entries(group, context.model.dim), &used)
-        }
+        _ => bind_components(context, &program.inputs(), |_| false),
     };
-    quote!(let #bound = #value;)
+    let placed = at_placement(context, program);
+    let reads = !(bound.is_empty() && placed.is_empty());
+    let Body { lets, results } = context.calling(program, called, number, Coefficients::of(number));
+    (Body { lets: quote!(#bound #placed #lets), results }, reads)
+}
+
+/// `let` statements that bind these components of `point`, and these matrices of it as rows.
+pub(super) fn bind_components(
+    context: &Context,
+    used: &[Symbol],
+    in_rows: impl Fn(Quantity) -> bool,
+) -> TokenStream {
+    let bind = |(group, symbols): &(Quantity, Vec<Symbol>)| {
+        let (name, value) = (Symbol::from(*group), group_of_point(context, *group));
+        let used: Vec<Symbol> = used.iter().filter(|symbol| symbols.contains(symbol)).cloned().collect();
+        let rows = entries(*group, context.model.dim);
+        if in_rows(*group) {
+            let (bound, name) = (bound_entries(&name, &rows, &used), ident(&name));
+            return quote!(let #name = #value; #bound);
+        }
+        let bound = if is_vector(*group) { pattern(symbols, &used) } else { table_pattern(&rows, &used) };
+        if used.is_empty() { TokenStream::new() } else { quote!(let #bound = #value;) }
+    };
+    context.model.dynamics.full.groups.iter().map(bind).collect()
+}
+
+/// Is a group of the array a vector? The others are matrices.
+pub(super) fn is_vector(group: Quantity) -> bool {
+    matches!(group, Quantity::Position | Quantity::LinearMomentum | Quantity::ComovingLinearMomentum)
+}
+
+/// The components of a vector of `point`, or the rows of a matrix.
+pub(super) fn group_of_point(context: &Context, group: Quantity) -> TokenStream {
+    let rt = &context.names.rt;
+    match group {
+        Quantity::Position => quote!(#rt::components(&#rt::Phase::x(point))),
+        Quantity::Placement => quote!(#rt::rows(#rt::Phase::phi(point))),
+        Quantity::LinearMomentum => quote!(#rt::components(&#rt::Phase::p(point))),
+        Quantity::ComovingLinearMomentum => quote!(#rt::components(&#rt::Phase::p_hat(point).0.0)),
+        _ => {
+            let spin = own_spin(context);
+            quote!(#rt::rows(&#spin))
+        }
+    }
 }
 
 /// A statement that binds the entries of `phi` that a program reads; nothing where it reads none.
@@ -148,7 +161,7 @@ pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream)
 }
 
 /// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
-pub(super) fn at_placement(context: &Context, program: &Program) -> TokenStream {
+fn at_placement(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = program.inputs();
     let [mean, dilatation] = [VolumeMeasure::MeanLogStretch, VolumeMeasure::Dilatation].map(|measure| {

@@ -9,9 +9,9 @@ use crate::symbol::Quantity;
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
-use super::number::number;
-use super::pattern::{ident, time};
-use super::point::{bind_point, placement, wrapper};
+use super::number::{Number, number};
+use super::pattern::{ident, in_rows, time};
+use super::point::{at_point, placement, wrapper};
 
 /// `metric`, `inverse_metric`, `acceleration`, `balance`, `centre_balance`, as far as asked for.
 pub(super) fn inherent(context: &Context) -> TokenStream {
@@ -38,9 +38,9 @@ fn metric(context: &Context) -> TokenStream {
     let square = |program: &Program, carried: &str| {
         let placement = placement(context, program, &quote!(phi));
         let Body { lets, results } = context.double(program);
-        let rows = results.chunks(metric.size).map(|row| quote!([#(#row),*]));
+        let rows = in_rows(&results, metric.size);
         let reads = !placement.is_empty();
-        let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix([#(#rows),*])));
+        let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix(#rows)));
         if context.model.metrics.is_some() {
             let carried = format_ident!("{carried}");
             inward = if reads { quote!(let phi = &#bases.placement(phi);) } else { TokenStream::new() };
@@ -72,11 +72,10 @@ fn acceleration(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let visibility = &context.spec.item.visibility;
     let point = context.point(&quote!(#rt::f64));
-    let bound = bind_point(context, program);
-    let Body { lets, results } = context.double(program);
-    let point_name = if bound.is_empty() { quote!(_point) } else { quote!(point) };
+    let (Body { lets, results }, reads) = at_point(context, program, Number::Double);
+    let point_name = if reads { quote!(point) } else { quote!(_point) };
     let at = reads_time(program).then(|| quote!(t: #rt::f64,));
-    let inward = if bound.is_empty() { TokenStream::new() } else { context.inward(Coefficients::Own) };
+    let inward = if reads { context.inward(Coefficients::Own) } else { TokenStream::new() };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
     let acceleration = match context.model.metrics {
@@ -88,7 +87,6 @@ fn acceleration(context: &Context) -> TokenStream {
         /// `dx/dt` along Hamilton's equations (section 4).
         #visibility fn acceleration(&self, #at #point_name: &#point) -> #rt::Vector<#n> {
             #inward
-            #bound
             #lets
             #acceleration
         }
@@ -101,8 +99,8 @@ fn balance(context: &Context) -> TokenStream {
     let visibility = &context.spec.item.visibility;
     let point = context.point(&quote!(#rt::f64));
     let matrix = |entries: &[TokenStream]| {
-        let rows = entries.chunks(dim).map(|row| quote!([#(#row),*]));
-        quote!(#rt::matrix([#(#rows),*]))
+        let rows = in_rows(entries, dim);
+        quote!(#rt::matrix(#rows))
     };
     let fields = |quantities: &[(Quantity, Components)], results: &[TokenStream], size: usize| {
         let value = |entries: &[TokenStream]| {
@@ -117,10 +115,10 @@ fn balance(context: &Context) -> TokenStream {
         quote!(#(#fields),*)
     };
     let method = |BalancedQuantities { quantities, program }: &BalancedQuantities, size: usize| {
-        let (bound, time) = (bind_point(context, program), time(program));
-        let Body { lets, results } = context.double(program);
+        let time = time(program);
+        let (Body { lets, results }, _) = at_point(context, program, Number::Double);
         let fields = fields(quantities, &results, size);
-        (quote!(&self, #time: #rt::f64, point: &#point), quote!(#bound #lets), fields)
+        (quote!(&self, #time: #rt::f64, point: &#point), lets, fields)
     };
     let (arguments, body, fields) = method(&balance.internal, dim * dim);
     let centre = balance.centre.as_ref().map(|balanced| {

@@ -14,19 +14,22 @@ use super::parametric::{Evaluation, Method, asks_again, equations_head};
 use super::passage::{any, components_of, programs, statements, value, variable};
 use super::pattern::{bound, identifiers, pattern, time};
 use super::point::wrapper;
-use super::trajectory::{self, Kept};
+use super::trajectory;
 
-/// The constants of a trajectory as a struct.
+/// The constants of a trajectory as a struct, where there are any.
 pub(super) fn constants_type(context: &Context) -> TokenStream {
     let (name, t) = (&context.names.constants, &context.names.scalar);
-    let fields: TokenStream = trajectory::kept(context, &[]).iter().map(|kept| kept.field(context)).collect();
+    let kept = trajectory::kept(context, &[]);
+    if kept.is_empty() {
+        return TokenStream::new();
+    }
+    let fields = kept.iter().map(|kept| kept.field(context));
     let visibility = &context.spec.item.visibility;
     let doc = format!(" What one trajectory of [`{}`] conserves.", context.names.model);
-    let marker = (fields.is_empty()).then(|| quote!(scalar: ::core::marker::PhantomData<#t>));
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-        #visibility struct #name<#t> { #fields #marker }
+        #visibility struct #name<#t> { #(#fields)* }
     }
 }
 
@@ -47,7 +50,7 @@ pub(super) fn methods(context: &Context) -> [Method; 4] {
 
 /// `reduce`: what moves in closed form is taken out, and space is turned.
 fn reduce(context: &Context, passage: &Passage) -> TokenStream {
-    let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let reduced = &context.model.dynamics.reduced;
     let program = &context.model.dynamics.trajectory;
     let used = [reduced.symbols(), program.inputs(), passage.fixed()].concat();
@@ -55,11 +58,7 @@ fn reduce(context: &Context, passage: &Passage) -> TokenStream {
     let Body { lets: coefficients, results } = context.generic(program, Coefficients::Given);
     let work = reduced.has(Quantity::Work).then(|| quote!(let work = #t::zero();));
     let state = identifiers(&reduced.symbols());
-    let mut fields: TokenStream =
-        trajectory::kept(context, &results).iter().map(Kept::at_the_start).collect();
-    if fields.is_empty() {
-        fields = quote!(scalar: ::core::marker::PhantomData);
-    }
+    let constants = trajectory::at_the_start(context, &results);
     let starts = passage.constants.iter().any(|constant| constant.name == Word::Start)
         || any(&passage.inward, |part| *part == Tensor::Variable(Word::Start));
     let origin = if starts { quote!(t0) } else { quote!(_t0) };
@@ -77,7 +76,7 @@ fn reduce(context: &Context, passage: &Passage) -> TokenStream {
             #lets
             #coefficients
             #work
-            ([#(#state),*], #constants { #fields })
+            ([#(#state),*], #constants)
         }
     }
 }

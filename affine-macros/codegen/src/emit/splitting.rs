@@ -13,7 +13,7 @@ use super::body::{Body, inner};
 use super::context::{Coefficients, Context};
 use super::number::number;
 use super::passage::closed_form;
-use super::pattern::{self, identifiers, table};
+use super::pattern::{self, identifiers, in_rows, table};
 use super::trajectory::{self, coefficients};
 
 /// The implementation of the capability.
@@ -123,19 +123,14 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let Body { lets, results } = context.generic(program, Coefficients::Own);
             let (generator, turning) = results.split_at(context.model.dim.pow(2).min(results.len()));
             let zero = |v: Value| matches!(&program.steps[v], Op::Constant(c) if c.is_zero());
-            let entries: Vec<_> =
-                generator.iter().zip(program.outputs.iter().map(|(_, v)| zero(*v))).collect();
             let times = |sign: TokenStream| {
                 let by = inner(quote!(*));
-                let entry = |(entry, zero): &(&TokenStream, bool)| match zero {
-                    true => (*entry).clone(),
+                let entries = generator.iter().zip(&program.outputs).map(|(entry, (_, v))| match zero(*v) {
+                    true => entry.clone(),
                     false => quote!(#sign h #by #entry),
-                };
-                let rows = entries.chunks(context.model.dim).map(|row| {
-                    let row = row.iter().map(entry);
-                    quote!([#(#row),*])
                 });
-                quote!(#rt::growth([#(#rows),*]))
+                let rows = in_rows(&entries.collect::<Vec<_>>(), context.model.dim);
+                quote!(#rt::growth(#rows))
             };
             let growth = times(quote!());
             let product = if *right { quote!(right_product) } else { quote!(left_product) };
@@ -143,8 +138,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let placed = added(context, placement, "rise");
             let turned = momentum.as_ref().map(|momentum| {
                 let inverse = times(quote!(-));
-                let rows = turning.chunks(context.model.dim).map(|row| quote!([#(#row),*]));
-                let matrix = quote!([#(#rows),*]);
+                let matrix = in_rows(turning, context.model.dim);
                 let sides = match right {
                     true => quote!(&inverse, &growth),
                     false => quote!(&growth, &inverse),

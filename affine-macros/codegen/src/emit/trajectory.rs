@@ -40,11 +40,11 @@ impl Kept {
     }
 
     /// The field of the value that a trajectory starts with.
-    pub(super) fn at_the_start(&self) -> TokenStream {
+    fn at_the_start(&self) -> TokenStream {
         let name = &self.name;
         match &self.start {
-            Some(value) => quote!(#name: #value,),
-            None => quote!(#name,),
+            Some(value) => quote!(#name: #value),
+            None => quote!(#name),
         }
     }
 }
@@ -65,6 +65,19 @@ pub(super) fn kept(context: &Context, coefficients: &[TokenStream]) -> Vec<Kept>
         start: Some(quote!([#(#coefficients),*])),
     });
     constants.chain(coefficients).collect()
+}
+
+/// The constants of a trajectory over a scalar as a type: nothing where a trajectory has none.
+pub(super) fn constants(context: &Context, scalar: &Ident) -> TokenStream {
+    let name = &context.names.constants;
+    if kept(context, &[]).is_empty() { quote!(()) } else { quote!(#name<#scalar>) }
+}
+
+/// Those of the trajectory that starts at `point` and has these coefficients.
+pub(super) fn at_the_start(context: &Context, coefficients: &[TokenStream]) -> TokenStream {
+    let name = &context.names.constants;
+    let fields: Vec<TokenStream> = kept(context, coefficients).iter().map(Kept::at_the_start).collect();
+    if fields.is_empty() { quote!(()) } else { quote!(#name { #(#fields),* }) }
 }
 
 /// The coefficients of a trajectory: `k_1`, `k_2`, ..

@@ -1,6 +1,6 @@
 //! The kinetic energy, term by term, in the velocity of its frame.
 
-use crate::algebra::ring::{Square, pairs};
+use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::constraint::Constraint;
@@ -135,6 +135,12 @@ impl Kinetic {
     /// The internal energy `T_int`.
     pub fn internal_energy(&self) -> Polynomial {
         self.internal.iter().map(|(_, energy)| energy).sum()
+    }
+
+    /// `(dT_int/dO)^T`
+    pub fn momentum(&self) -> Square<Polynomial> {
+        let energy = self.internal_energy();
+        table(self.dim, |a, b| energy.derivative(self.velocity.0[b][a]))
     }
 
     /// `d^2 T_int / dO_k dO_l` on the entries of the velocity, row-major.

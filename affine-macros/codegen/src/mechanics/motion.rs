@@ -261,7 +261,7 @@ impl Motion {
     /// not determine momenta.
     pub fn legendre(&self, arena: &mut Arena) -> Vec<Legendre> {
         match (&self.inverse, self.parts.first()) {
-            (Inverse::Factorised(internal), _) => internal.legendre(arena).into(),
+            (Inverse::Factorised(internal), _) => internal.legendre(arena),
             (Inverse::Polynomial(h), Some(kinetic)) if self.determines_momentum() => {
                 vec![of_a_constant_matrix(kinetic, h)]
             }
@@ -278,8 +278,7 @@ fn in_both_forms(kinetics: Kinetics, h: &Hamiltonian) -> Vec<(Kinetics, Form)> {
 
 /// `X_ab = dT/dO_ba`, projected under a constraint, and `T_int`, both with the weight of the energy.
 fn of_a_constant_matrix(kinetic: &Kinetic, h: &Hamiltonian) -> Legendre {
-    let energy = kinetic.internal_energy();
-    let slopes = table(kinetic.dim, |a, b| energy.derivative(kinetic.velocity.0[b][a]));
+    let (energy, slopes) = (kinetic.internal_energy(), kinetic.momentum());
     let momentum = kinetic.confined().map_or_else(|| slopes.clone(), |group| group.projected(&slopes));
     let weighted = |value: &Polynomial| match &h.weight {
         Some(weight) => value.mul(&Polynomial::atom(weight.square)),
@@ -287,7 +286,7 @@ fn of_a_constant_matrix(kinetic: &Kinetic, h: &Hamiltonian) -> Legendre {
     };
     Legendre {
         shared: h.weight_definitions(),
-        momentum: table(kinetic.dim, |a, b| weighted(&momentum[a][b])),
+        momenta: vec![(kinetic.frame, table(kinetic.dim, |a, b| weighted(&momentum[a][b])))],
         energy: weighted(&energy),
     }
 }

@@ -72,7 +72,7 @@ pub(super) fn values(context: &Context) -> TokenStream {
         .collect();
     match matrices.as_slice() {
         [] => quote!([#(self.#numbers),*]),
-        _ => quote!(#rt::joined(&[&[#(self.#numbers),*], #(#matrices),*])),
+        _ => quote!(#rt::joined([&[#(self.#numbers),*], #(#matrices),*])),
     }
 }
 

@@ -9,6 +9,7 @@ use crate::algebra::passage::Passage;
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
 use crate::emit::parametric::{Evaluation, equations_head};
+use crate::emit::trajectory;
 
 /// Are the reduced equations those of the plain array, and the constants at most their coefficients?
 pub(super) fn is_plain(context: &Context, passage: &Passage) -> bool {
@@ -17,13 +18,10 @@ pub(super) fn is_plain(context: &Context, passage: &Passage) -> bool {
 
 /// `reduce`: the plain array.
 pub(super) fn reduce(context: &Context) -> TokenStream {
-    let (rt, t, constants) = (&context.names.rt, &context.names.scalar, &context.names.constants);
+    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.dynamics.trajectory;
     let Body { lets, results } = context.generic(program, Coefficients::Given);
-    let fields = match results.len() {
-        0 => quote!(scalar: ::core::marker::PhantomData),
-        _ => quote!(coefficients: [#(#results),*]),
-    };
+    let constants = trajectory::at_the_start(context, &results);
     let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", slice::from_ref(program));
     let flat = match context.has_prepared_bases() {
         true => quote!(#rt::Parametric::flatten_with(self, coefficients, point)),
@@ -37,7 +35,7 @@ pub(super) fn reduce(context: &Context) -> TokenStream {
             point: &Self::Point<#t>,
         ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
             #lets
-            (#flat, #constants { #fields })
+            (#flat, #constants)
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::direction::{BasisVector, entries, invariant};
+use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian};
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::shared::frame_of;
@@ -24,8 +25,8 @@ use super::placed::Placed;
 pub struct Legendre {
     /// Quantities on the way from `phi` and the velocity.
     pub shared: Definitions,
-    /// `(dT/dO)^T`, projected under a constraint.
-    pub momentum: Square<Polynomial>,
+    /// `(dT/dO)^T` in the velocities of each frame, projected under a constraint.
+    pub momenta: Vec<(Frame, Square<Polynomial>)>,
     /// `T_int`.
     pub energy: Polynomial,
 }
@@ -106,35 +107,36 @@ impl Internal {
         (shared, columns)
     }
 
-    /// The Legendre transformation, in each form that may be the shortest.
-    pub fn legendre(&self, arena: &mut Arena) -> [Legendre; 2] {
-        let mixed = &self.mixed;
-        let placed = Placed::new(arena, mixed.dim, mixed.constraint);
+    /// The Legendre transformation, in each form that may be the shortest; on all placements that of each part in its frame.
+    pub fn legendre(&self, arena: &mut Arena) -> Vec<Legendre> {
+        let parts = &self.mixed.internal;
+        let Some(group) = self.group() else {
+            return vec![Legendre {
+                shared: Definitions::new(),
+                momenta: parts.iter().map(|part| (part.frame, part.momentum())).collect(),
+                energy: parts.iter().map(Kinetic::internal_energy).sum(),
+            }];
+        };
+        let n = self.mixed.dim;
+        let placed = Placed::new(arena, n, Some(group));
         let on_the_group = placed.values(arena);
         // Where G is no multiple of 1, nothing else here needs it.
         let through_green = placed.inverse_square.is_some();
-        let lagrangian = mixed.lagrangian(arena, &self.lagrangian.chart, on_the_group, through_green);
-        [false, true].map(|by_names| {
-            let (shared, momentum, energy) = lagrangian.legendre(by_names);
-            let shared = [placed.shared.clone(), shared].concat();
-            let n = self.velocity.dim();
-            let momentum = table(n, |a, b| momentum[n * a + b].clone());
-            self.projected(Legendre { shared, momentum, energy })
-        })
-    }
-
-    fn projected(&self, legendre: Legendre) -> Legendre {
-        let Some(group) = self.group() else { return legendre };
-        let Legendre { shared, momentum, energy } = legendre;
+        let lagrangian = self.mixed.lagrangian(arena, &self.lagrangian.chart, on_the_group, through_green);
         // Of the entries of Oh those that determine the others.
         let dependent = group.dependent(&self.velocity);
         let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
-        let projected = group.projected(&momentum);
-        Legendre {
-            shared: shared.into_iter().map(|(symbol, p)| (symbol, p.substitute(&value))).collect(),
-            momentum: table(self.velocity.dim(), |a, b| projected[a][b].substitute(&value)),
-            energy: energy.substitute(&value),
-        }
+        let forms = [false, true].map(|by_names| {
+            let (shared, momentum, energy) = lagrangian.legendre(by_names);
+            let shared = placed.shared.iter().cloned().chain(shared);
+            let projected = group.projected(&table(n, |a, b| momentum[n * a + b].clone()));
+            Legendre {
+                shared: shared.map(|(symbol, p)| (symbol, p.substitute(&value))).collect(),
+                momenta: vec![(Frame::Body, table(n, |a, b| projected[a][b].substitute(&value)))],
+                energy: energy.substitute(&value),
+            }
+        });
+        forms.into()
     }
 }
 
