@@ -79,15 +79,13 @@ pub fn comoving_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: Forc
 
 /// `Q_tr`.
 #[inline]
-pub fn translational_force<
-    const N: usize,
-    const GYROSCOPIC: bool,
-    T: Scalar,
-    F: Force<N, Form = Translation>,
->(
+pub fn translational_force<const N: usize, const GYROSCOPIC: bool, T: Scalar, F>(
     force: &F,
     told: Told<N, T>,
-) -> [T; N] {
+) -> [T; N]
+where
+    F: Force<N, Form = Translation>,
+{
     components(&asked::<N, GYROSCOPIC, T, F>(force, told))
 }
 

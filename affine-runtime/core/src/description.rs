@@ -108,6 +108,7 @@ pub enum Scope {
 
 impl Scope {
     /// Something that these runs do without.
+    #[doc(hidden)]
     #[must_use]
     pub const fn without(self, what: Word) -> LeftOut {
         LeftOut { what, scope: self }

@@ -71,74 +71,51 @@ pub struct Body;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Canonical;
 
-impl Frame for Space {
-    const MOMENTUM: &'static str = "Sigma";
+/// A frame by what its affine spin is in the others, and in other bases.
+macro_rules! frame {
+    ($frame:ident, $momentum:literal, converted by $convert:ident, |$phi:ident, $spin:ident|
+     $($to:ident => $in_frame:expr),+; |$bases:ident| $rebased:expr) => {
+        impl Frame for $frame {
+            const MOMENTUM: &'static str = $momentum;
 
-    fn to_space<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        *spin
-    }
-    fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        inverse(phi) * spin * phi
-    }
-    fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        inverse(phi) * spin
-    }
-    fn to_mixed<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        *spin
-    }
-    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        F::to_space(phi, spin)
-    }
-    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        bases.space * spin * bases.space_inverse
-    }
+            $(#[allow(unused_variables, reason = "where it is the same")]
+            fn $to<const N: usize, T: Real>($phi: &Matrix<N, T>, $spin: &Matrix<N, T>) -> Matrix<N, T> {
+                $in_frame
+            })+
+            fn convert<F: Frame, const N: usize, T: Real>(
+                $phi: &Matrix<N, T>,
+                $spin: &Matrix<N, T>,
+            ) -> Matrix<N, T> {
+                F::$convert($phi, $spin)
+            }
+            fn rebased<const N: usize, T: Real>(
+                $bases: &Bases<N, T>,
+                $spin: &Matrix<N, T>,
+            ) -> Matrix<N, T> {
+                $rebased
+            }
+        }
+    };
 }
 
-impl Frame for Body {
-    const MOMENTUM: &'static str = "Sigma_hat";
-
-    fn to_space<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        phi * spin * inverse(phi)
-    }
-    fn to_body<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        *spin
-    }
-    fn to_canonical<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        spin * inverse(phi)
-    }
-    fn to_mixed<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        *spin
-    }
-    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        F::to_body(phi, spin)
-    }
-    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        bases.body * spin * bases.body_inverse
-    }
-}
-
-impl Frame for Canonical {
-    const MOMENTUM: &'static str = "Pi";
-
-    fn to_space<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        phi * spin
-    }
-    fn to_body<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        spin * phi
-    }
-    fn to_canonical<const N: usize, T: Real>(_phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        *spin
-    }
-    fn to_mixed<const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        spin * phi
-    }
-    fn convert<F: Frame, const N: usize, T: Real>(phi: &Matrix<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        F::to_canonical(phi, spin)
-    }
-    fn rebased<const N: usize, T: Real>(bases: &Bases<N, T>, spin: &Matrix<N, T>) -> Matrix<N, T> {
-        bases.body * spin * bases.space_inverse
-    }
-}
+frame!(Space, "Sigma", converted by to_space, |phi, spin|
+    to_space => *spin,
+    to_body => inverse(phi) * spin * phi,
+    to_canonical => inverse(phi) * spin,
+    to_mixed => *spin;
+    |bases| bases.space * spin * bases.space_inverse);
+frame!(Body, "Sigma_hat", converted by to_body, |phi, spin|
+    to_space => phi * spin * inverse(phi),
+    to_body => *spin,
+    to_canonical => spin * inverse(phi),
+    to_mixed => *spin;
+    |bases| bases.body * spin * bases.body_inverse);
+frame!(Canonical, "Pi", converted by to_canonical, |phi, spin|
+    to_space => phi * spin,
+    to_body => spin * phi,
+    to_canonical => *spin,
+    to_mixed => spin * phi;
+    |bases| bases.body * spin * bases.space_inverse);
 
 /// A momentum given in some frame: what `at_momentum` accepts.
 ///

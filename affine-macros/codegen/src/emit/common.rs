@@ -128,7 +128,7 @@ impl Function {
         let bound = self.arguments.matrices.iter().map(|(name, rows)| bound_entries(name, rows, &used));
         let values: FxHashMap<&Symbol, &TokenStream> = self.program().results().zip(results).collect();
         let list = |own: &[Symbol]| {
-            let own = own.iter().map(|symbol| values[symbol]);
+            let own = own.iter().filter_map(|symbol| values.get(symbol));
             quote!([#(#own),*])
         };
         let results = together(self.results.each(

@@ -44,16 +44,14 @@ pub fn comoving_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F: F
 
 /// `Q_tr`.
 #[inline]
-pub fn translational_force_in<
-    const N: usize,
-    const GYROSCOPIC: bool,
-    T: Scalar,
-    F: Force<N, Form = Translation>,
->(
+pub fn translational_force_in<const N: usize, const GYROSCOPIC: bool, T: Scalar, F>(
     force: &F,
     bases: &Bases<N, T>,
     told: Told<N, T>,
-) -> [T; N] {
+) -> [T; N]
+where
+    F: Force<N, Form = Translation>,
+{
     let force = asked_in::<N, GYROSCOPIC, T, F>(force, bases, told);
     components(&(bases.space_inverse.transpose() * force))
 }
@@ -71,35 +69,29 @@ fn place_in<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P:
 
 /// `U`.
 #[inline]
-pub fn potential_energy_in<
-    const N: usize,
-    const CLASS: u8,
-    const POSITION: bool,
-    T: Scalar,
-    P: Potential<N>,
->(
+pub fn potential_energy_in<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P>(
     potential: &P,
     bases: &Bases<N, T>,
     x: [T; N],
     phi: Rows<N, T>,
-) -> T {
+) -> T
+where
+    P: Potential<N>,
+{
     potential.energy(&place_in::<N, CLASS, POSITION, T, P>(bases, x, phi))
 }
 
 /// `dU/dx` and `dU/dphi`.
 #[inline]
-pub fn potential_slopes_in<
-    const N: usize,
-    const CLASS: u8,
-    const POSITION: bool,
-    T: Scalar,
-    P: Potential<N>,
->(
+pub fn potential_slopes_in<const N: usize, const CLASS: u8, const POSITION: bool, T: Scalar, P>(
     potential: &P,
     bases: &Bases<N, T>,
     x: [T; N],
     phi: Rows<N, T>,
-) -> ([T; N], Rows<N, T>) {
+) -> ([T; N], Rows<N, T>)
+where
+    P: Potential<N>,
+{
     let Slopes { x, phi } = potential.slopes(&place_in::<N, CLASS, POSITION, T, P>(bases, x, phi));
     let to_space = bases.space_inverse.transpose();
     (components(&(to_space * x)), rows(&(to_space * phi * bases.body.transpose())))

@@ -169,15 +169,20 @@ fn log_determinant_near_identity<const N: usize, T: Real>(mut excess: Matrix<N, 
     for k in 0..N {
         let pivot = excess[(k, k)];
         sum += pivot.ln_1p();
-        for row in k + 1..N {
-            let factor = excess[(row, k)] / (T::one() + pivot);
-            for column in k + 1..N {
-                let above = excess[(k, column)];
-                excess[(row, column)] -= factor * above;
-            }
-        }
+        eliminate(&mut excess, k, T::one() + pivot);
     }
     sum
+}
+
+/// A step of Gauss elimination by a pivot, without what becomes zero.
+fn eliminate<const N: usize, T: Real>(matrix: &mut Matrix<N, T>, k: usize, pivot: T) {
+    for row in k + 1..N {
+        let factor = matrix[(row, k)] / pivot;
+        for column in k + 1..N {
+            let above = matrix[(k, column)];
+            matrix[(row, column)] -= factor * above;
+        }
+    }
 }
 
 /// The matrix with powers of two taken out of its rows, then of its columns, so that the largest entry of each
@@ -222,13 +227,7 @@ fn determinant_by_elimination<const N: usize, T: Real>(mut matrix: Matrix<N, T>)
         }
         let head = matrix[(k, k)];
         product *= head;
-        for row in k + 1..N {
-            let factor = matrix[(row, k)] / head;
-            for column in k + 1..N {
-                let above = matrix[(k, column)];
-                matrix[(row, column)] -= factor * above;
-            }
-        }
+        eliminate(&mut matrix, k, head);
     }
     product
 }

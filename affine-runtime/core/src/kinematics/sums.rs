@@ -8,41 +8,28 @@ use super::velocities::LinearVelocity;
 use crate::frames::{AffineSpin, AffineVelocity, Comoving, Spatial, TwoPoint};
 use crate::scalar::Real;
 
-macro_rules! sums_in_frame {
-    ($($frame:ident)*) => {$(
-        impl<Q: Add<Output = Q>> Add for $frame<Q> {
+macro_rules! termwise {
+    ($trait:ident, $method:ident, $sign:tt) => {
+        termwise!($trait, $method, $sign, Spatial Comoving TwoPoint;
+            // Not the deformation tensors: a sum of two metrics is not the metric of a deformation.
+            AffineVelocity AffineSpin LinearVelocity LinearMomentum AngularMomentum Vorticity AffineMomentum
+            Strain InertialQuadrupole);
+    };
+    ($trait:ident, $method:ident, $sign:tt, $($frame:ident)*; $($quantity:ident)*) => {
+        $(impl<Q: $trait<Output = Q>> $trait for $frame<Q> {
             type Output = Self;
-            fn add(self, other: Self) -> Self {
-                Self(self.0 + other.0)
+            fn $method(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
             }
-        }
-        impl<Q: Sub<Output = Q>> Sub for $frame<Q> {
+        })*
+        $(impl<const N: usize, T: Real> $trait for $quantity<N, T> {
             type Output = Self;
-            fn sub(self, other: Self) -> Self {
-                Self(self.0 - other.0)
+            fn $method(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
             }
-        }
-    )*};
+        })*
+    };
 }
 
-macro_rules! sums {
-    ($($quantity:ident)*) => {$(
-        impl<const N: usize, T: Real> Add for $quantity<N, T> {
-            type Output = Self;
-            fn add(self, other: Self) -> Self {
-                Self(self.0 + other.0)
-            }
-        }
-        impl<const N: usize, T: Real> Sub for $quantity<N, T> {
-            type Output = Self;
-            fn sub(self, other: Self) -> Self {
-                Self(self.0 - other.0)
-            }
-        }
-    )*};
-}
-
-sums_in_frame!(Spatial Comoving TwoPoint);
-// Not the deformation tensors: a sum of two metrics is not the metric of a deformation.
-sums!(AffineVelocity AffineSpin LinearVelocity LinearMomentum AngularMomentum Vorticity AffineMomentum);
-sums!(Strain InertialQuadrupole);
+termwise!(Add, add, +);
+termwise!(Sub, sub, -);
