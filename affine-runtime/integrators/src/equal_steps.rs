@@ -134,6 +134,12 @@ impl<P: Copy> EqualSteps<P> {
         Ok(())
     }
 
+    /// Passes over the steps to the end, where the point is what it was.
+    #[cfg(feature = "std")]
+    pub(super) fn pass_over(&mut self) {
+        self.taken = self.times.count;
+    }
+
     /// Length of the last step; of the first one before it is taken.
     pub(super) fn last_length(&self) -> f64 {
         self.last

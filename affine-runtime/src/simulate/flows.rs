@@ -8,7 +8,7 @@ mod pieces;
 use core::fmt;
 
 use super::failed::failed;
-use super::in_lanes::{EIGHT, Together, has_fused_lanes};
+use super::in_lanes::{EIGHT, has_fused_lanes};
 use super::mechanics::{Begin, Moving};
 use super::method::Method;
 use super::methods::{by_any_steps, by_splitting};
@@ -18,12 +18,12 @@ use super::stepped::{Stepped, placed_at};
 use crate::capability::{InLanes, Splitting};
 use crate::error::{Reason, Setting, Stop};
 use crate::inner::step_count;
-use crate::integrate::{Failure, FusedArithmetic};
+use crate::integrate::FusedArithmetic;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
 use by_error::ByError;
 use by_splitting::BySplitting;
-use eight::{Eight, Left};
+use eight::{InLanesOf, Left, all_moved, together};
 
 /// Bodies of one frame loop, [`F64x8`] of them at once in the vectors of the processor: each is where a [`Flow`](super::Flow) by
 /// the same method would have it, to the bit.
@@ -82,9 +82,6 @@ where
     alone: Vec<Option<Box<Alone<'a, N, H>>>>,
 }
 
-/// Eight bodies by whatever steps.
-type InLanesOf<'a, const N: usize, H> = Box<dyn Eight<N, H> + Send + 'a>;
-
 /// A body that moves by itself, with what kept it from the time of the others.
 struct Alone<'a, const N: usize, H: Handle<N> + 'a> {
     body: Stepped<'a, N, H>,
@@ -110,10 +107,11 @@ where
         H::Model: Splitting<N>,
     {
         let plan = Plan { method: Method::Splitting { order, step }, ..Plan::default() };
-        Self::begun((plan, by_splitting), t0, bodies.into_iter().collect(), |bodies| {
+        let of_failure = |failure| failed(failure, (plan.method, plan.tolerance), H::Model::DESCRIPTION.name);
+        Self::begun((plan.clone(), by_splitting), t0, bodies.into_iter().collect(), |bodies| {
             let eight = BySplitting::new((order, step), t0, together(t0, bodies));
-            let eight = eight.ok_or(Setting::Order { given: order })?;
-            Ok(eight.map(|eight| Box::new(eight) as InLanesOf<'a, N, H>))
+            let eight = eight.ok_or(Setting::Order { given: order })?.map_err(of_failure)?;
+            Ok(Box::new(eight))
         })
     }
 
@@ -130,24 +128,22 @@ where
         bodies: impl IntoIterator<Item = (H, PointOf<N, H>)>,
     ) -> Result<Self, Stop> {
         let plan = Plan { method: Method::RungeKutta8, tolerance, ..Plan::default() };
-        let eight = |bodies: &[(H, PointOf<N, H>)]| -> InLanesOf<'a, N, H> {
+        Self::begun((plan.clone(), by_any_steps), t0, bodies.into_iter().collect(), |bodies| {
             let is_fused = bodies.first().is_some_and(|(handle, _)| has_fused_lanes(handle.model()));
-            match FusedArithmetic::here() {
+            Ok(match FusedArithmetic::here() {
                 FusedArithmetic::InVectors if is_fused => {
                     Box::new(ByError::new(&plan, t0, together::<N, <F64x8 as Lanes>::Fused, H>(t0, bodies)))
                 }
                 _ => Box::new(ByError::new(&plan, t0, together::<N, F64x8, H>(t0, bodies))),
-            }
-        };
-        let bodies = bodies.into_iter().collect();
-        Self::begun((plan.clone(), by_any_steps), t0, bodies, |bodies| Ok(Ok(eight(bodies))))
+            })
+        })
     }
 
     fn begun(
         (plan, begin): (Plan, Begin<'a, N, Stepping<H>>),
         t0: f64,
         bodies: Vec<(H, PointOf<N, H>)>,
-        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<Result<InLanesOf<'a, N, H>, Failure>, Setting>,
+        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<InLanesOf<'a, N, H>, Reason>,
     ) -> Result<Self, Stop> {
         let alone = bodies.iter().map(|_| None).collect();
         let mut flows = Self { plan, begin, t: t0, eights: Vec::new(), alone };
@@ -158,7 +154,7 @@ where
     fn fill(
         &mut self,
         bodies: Vec<(H, PointOf<N, H>)>,
-        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<Result<InLanesOf<'a, N, H>, Failure>, Setting>,
+        eight: impl Fn(&[(H, PointOf<N, H>)]) -> Result<InLanesOf<'a, N, H>, Reason>,
     ) -> Result<(), Reason> {
         self.plan.checked_method(&H::Model::DESCRIPTION)?;
         if !self.t.is_finite() {
@@ -166,28 +162,13 @@ where
         }
         self.plan.checked_step(self.t, self.t)?;
         for bodies in bodies.chunks(EIGHT) {
-            let eight = eight(bodies)?.map_err(|failure| self.failed(failure))?;
-            self.eights.push(eight);
+            self.eights.push(eight(bodies)?);
         }
         for (number, (handle, point)) in bodies.into_iter().enumerate() {
             self.put(number, handle, point)?;
         }
         Ok(())
     }
-}
-
-/// The models of bodies, eight at most, with the constants of their trajectories; those of the last in the lanes that are left.
-fn together<const N: usize, T: Lanes, H: Handle<N>>(
-    t0: f64,
-    bodies: &[(H, PointOf<N, H>)],
-) -> Together<N, T, H>
-where
-    H::Model: InLanes<N>,
-{
-    Together::of(|lane| {
-        let (handle, point) = &bodies[lane.min(bodies.len().saturating_sub(1))];
-        (handle.clone(), handle.model().reduce(t0, point).1)
-    })
 }
 
 impl<'a, const N: usize, H: Handle<N> + 'a> Flows<'a, N, H>
@@ -291,10 +272,6 @@ where
         put.and_then(|point| self.put(number, model, point)).map_err(|reason| self.stopped_by(reason))
     }
 
-    fn failed(&self, failure: Failure) -> Reason {
-        failed(failure, (self.plan.method, self.plan.tolerance), H::Model::DESCRIPTION.name)
-    }
-
     /// Largest number of steps to one time; a million if not set.
     pub fn set_max_steps(&mut self, max_steps: u64) {
         self.plan.max_steps = max_steps;
@@ -344,7 +321,9 @@ where
             return Ok(());
         }
         let left = all_moved(&mut self.eights, (t_end, self.plan.max_steps));
-        let left = left.map_err(|failure| self.stopped_by(self.failed(failure)))?;
+        let of_failure =
+            |failure| failed(failure, (self.plan.method, self.plan.tolerance), H::Model::DESCRIPTION.name);
+        let left = left.map_err(|failure| self.stopped_by(of_failure(failure)))?;
         self.t = t_end;
         self.alone.iter_mut().flatten().for_each(|alone| alone.move_to(t_end));
         let mut begun = Ok(());
@@ -392,54 +371,6 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Alone<'a, N, H> {
         self.stop = moved.err().map(|reason| Stop { reason, t, steps });
     }
 }
-
-/// Bodies that left their lanes, each with the number of its eight.
-type AllLeft<const N: usize, H> = Vec<(usize, Left<H, PointOf<N, H>>)>;
-
-/// Moves bodies in lanes to a time, by at most so many steps, but for those that cannot go on there; `place` is the number of the
-/// first eight.
-fn moved<'a, const N: usize, H: Handle<N>>(
-    (place, eights): (usize, &mut [InLanesOf<'a, N, H>]),
-    (t_end, limit): (f64, u64),
-) -> Result<AllLeft<N, H>, Failure> {
-    let mut all = Vec::new();
-    for (place, eight) in (place..).zip(eights) {
-        eight.move_to(t_end, limit, &mut |left| all.push((place, left)))?;
-    }
-    Ok(all)
-}
-
-/// The same of all of them.
-#[cfg(not(feature = "parallel"))]
-fn all_moved<'a, const N: usize, H: Handle<N>>(
-    eights: &mut [InLanesOf<'a, N, H>],
-    to: (f64, u64),
-) -> Result<AllLeft<N, H>, Failure> {
-    moved((0, eights), to)
-}
-
-/// The same of all of them on the threads of the pool.
-#[cfg(feature = "parallel")]
-fn all_moved<'a, const N: usize, H: Handle<N> + Send>(
-    eights: &mut [InLanesOf<'a, N, H>],
-    to: (f64, u64),
-) -> Result<AllLeft<N, H>, Failure>
-where
-    PointOf<N, H>: Send,
-{
-    use rayon::prelude::*;
-    if eights.len() <= AT_LEAST {
-        return moved((0, eights), to);
-    }
-    let parts = eights.par_chunks_mut(AT_LEAST).enumerate();
-    let moved = parts.map(|(part, eights)| moved((part * AT_LEAST, eights), to));
-    let left: Vec<AllLeft<N, H>> = moved.collect::<Result<_, _>>()?;
-    Ok(left.into_iter().flatten().collect())
-}
-
-/// Eights that are worth another thread: to wake one takes as long as some steps of a hundred bodies.
-#[cfg(feature = "parallel")]
-const AT_LEAST: usize = 64;
 
 impl<'a, const N: usize, H: Handle<N> + 'a> fmt::Debug for Flows<'a, N, H>
 where

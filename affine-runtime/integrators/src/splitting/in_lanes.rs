@@ -112,6 +112,11 @@ impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> SplittingInLanes<T, S,
         self.steps.aim(t_end)
     }
 
+    /// Passes over the steps to the end, where the states are what they were.
+    pub fn pass_over(&mut self) {
+        self.steps.pass_over();
+    }
+
     /// The end is reached.
     pub fn is_finished(&self) -> bool {
         self.steps.is_finished()
@@ -250,6 +255,10 @@ mod tests {
                 assert_eq!(lanes.end().0, t_end);
             }
             assert_eq!(lanes.advance(), F64x8::zero(), "nothing is done at the end");
+            let states = *lanes.end().1;
+            lanes.aim(2.0)?;
+            lanes.pass_over();
+            assert!(lanes.is_finished() && lanes.end() == (2.0, &states));
             assert!(InLanes::new(Driven, order + 1, 1.0, STEP).is_none());
         }
         Ok(())

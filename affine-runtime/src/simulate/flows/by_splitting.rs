@@ -125,6 +125,9 @@ where
         left: &mut dyn FnMut(Left<H, PointOf<N, H>>),
     ) -> Result<(), Failure> {
         self.integration.aim(t_end)?;
+        if !self.has_body.contains(&true) {
+            self.integration.pass_over();
+        }
         self.integration.pieces_mut().0.settle();
         while !self.integration.is_finished() {
             let doubts = self.integration.advance();
