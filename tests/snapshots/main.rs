@@ -82,6 +82,15 @@ fn all_together_are_short() {
     assert!(all < 20_000, "{all} lines");
 }
 
+/// A sum of frames in space: a mass matrix of nine rows is factorised once.
+#[test]
+fn a_sum_of_frames_is_short() {
+    let sum = BY_EQUATIONS.iter().find(|specimen| specimen.name == "mixed_body_space_3").unwrap();
+    let expansion = expand(sum.args.parse().unwrap(), sum.item().parse().unwrap());
+    let lines = prettyplease::unparse(&syn::parse2(expansion).unwrap()).lines().count();
+    assert!(lines <= 700, "{lines} lines");
+}
+
 /// What no full snapshot shows, nobody reviews.
 #[test]
 fn every_emitted_item_is_reviewed() {
