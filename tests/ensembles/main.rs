@@ -3,6 +3,7 @@
 
 mod events;
 mod fast;
+mod frames;
 mod lanes;
 mod models;
 mod outcomes;

@@ -28,7 +28,7 @@ pub(crate) type Cube = PreparedBlock;
     dim = 2,
     kinetic(casimir2 = 0.5, body_inertia = 1),
     potential = tr(G)/2 - 2*q + 0.1*sin(2*t)*G[1,1],
-    emit(splitting),
+    emit(splitting, lanes),
 )]
 #[derive(Clone, Copy)]
 pub(crate) struct Driven;

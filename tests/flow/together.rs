@@ -7,7 +7,7 @@ use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting, Stop};
 
 use crate::models::{
-    Block, Cube, Dust, Held, PreparedDust, Slanted, Spring, Walled, block, sheared, strained, thrown,
+    Block, Cube, Driven, Dust, Held, PreparedDust, Slanted, Spring, Walled, block, sheared, strained, thrown,
 };
 
 type PointOf<const N: usize, M> = <M as Model<N>>::Point<f64>;
@@ -165,6 +165,8 @@ fn bodies_of_other_kinds() {
     are_where_each_is(held.collect(), 0);
     let walled = (0..10).map(|k| (Owned(Walled), Walled.at_velocity(x, phi(k), v, 0.3 * sheared()).unwrap()));
     are_where_each_is(walled.collect(), 10);
+    let driven = (0..10).map(|k| (Owned(Driven), Driven.at_velocity(phi(k), 0.3 * sheared()).unwrap()));
+    are_where_each_is(driven.collect(), 0);
 }
 
 /// Dust that is pulled together: bodies 2 and 9 collapse.
