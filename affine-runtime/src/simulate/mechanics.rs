@@ -90,16 +90,12 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
         knot.set(self.handle.model(), t, point);
     }
     fn on_cubic(&self, ends: [&Knot; 2]) -> Option<[M::Point<f64>; 3]> {
-        let model = self.handle.model();
-        vectorized(
+        let mut quarters = [M::Full::<f64>::zeros(); 3];
+        let is_told = vectorized(
             #[inline(always)]
-            || {
-                let mut quarters = [M::Full::<f64>::zeros(); 3];
-                let is_told = on_cubic::<N, M>(ends, &mut quarters);
-                let [first, second, third] = &quarters;
-                is_told.then(|| [model.unflatten(first), model.unflatten(second), model.unflatten(third)])
-            },
-        )
+            || on_cubic::<N, M>(ends, &mut quarters),
+        );
+        is_told.then(|| quarters.each_ref().map(|full| self.handle.model().unflatten(full)))
     }
     fn geodesic(&self, t0: f64, point: &M::Point<f64>) -> Option<Geodesic<N>> {
         self.handle.model().geodesic(t0, point)

@@ -44,7 +44,7 @@ const ONCE: [&str; 9] = [
     // One evaluation among those of a step in single numbers.
     "affine_runtime::simulate::by_equations::reduced::{{closure}}::{{closure}}",
     // The length of the first step of a run in lanes.
-    "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F>::first_step::{{closure}}",
+    "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F,R>::first_step::{{closure}}",
 ];
 
 /// A function: where it begins and ends, and its name without hashes.

@@ -161,13 +161,9 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
     put(&mut moving, "phi", &state.phi);
     let (velocity, spin) = names(model.frame);
     agree(what, &run(&model.point.velocity, &here), velocity, &stem(&moving, velocity), n * n);
-    agree(
-        what,
-        &run(&model.point.velocity_side.as_ref().unwrap().legendre, &moving),
-        spin,
-        &stem(&here, spin),
-        n * n,
-    );
+    let momenta = run(&model.point.velocity_side.as_ref().unwrap().legendre, &moving);
+    let together = if momenta.len() > n * n { sum_of_momenta(&momenta, state) } else { momenta };
+    agree(what, &together, spin, &stem(&here, spin), n * n);
     if let Some(masses) = &model.point.mixed_masses {
         agree(what, &run(&masses.velocity, &here), "x_dot_", &stem(&moving, "x_dot_"), n);
         agree(what, &run(&masses.momentum, &moving), "p_", &stem(&here, "p_"), n);
@@ -180,6 +176,24 @@ fn programs_agree(sum: &Sum, model: &Model, state: &State) {
     assert_eq!(run(&model.point.hamiltonian, &here)["energy"], own(motion.energy()), "{what}: H");
     let size = n * n + if kinetic.has_translation() { n } else { 0 };
     agree(what, &run(&model.dynamics.full.program, &here), "d_", &rates(&motion), 2 * size);
+}
+
+/// `Pi = Sigma_hat phi^-1 + phi^-1 Sigma + Pi'` of the momenta of several frames.
+fn sum_of_momenta(momenta: &Values, state: &State) -> Values {
+    let (n, inverse) = (state.phi.shape().0, state.phi.inverse().unwrap());
+    let mut read = 0;
+    let mut matrix = |name: &str| {
+        let places = (1..=n).flat_map(|i| (1..=n).map(move |j| (i, j)));
+        let entries: Option<Vec<_>> =
+            places.map(|(i, j)| momenta.get(&format!("{name}_{i}{j}")).map(exact)).collect();
+        read += entries.as_ref().map_or(0, Vec::len);
+        entries.map_or(Matrix::zeros(n, n), |entries| Matrix::from_rationals(n, n, &entries))
+    };
+    let [sigma_hat, sigma, flat] = ["sigma_hat", "sigma", "pi"].map(&mut matrix);
+    assert_eq!(read, momenta.len(), "{momenta:?}");
+    let mut values = Values::new();
+    put(&mut values, "pi", &(&(&(&sigma_hat * &inverse) + &(&inverse * &sigma)) + &flat));
+    values
 }
 
 /// The reduced equations: those of the energy that a free centre of mass leaves, at a point in turned space.
