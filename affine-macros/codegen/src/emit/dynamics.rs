@@ -221,13 +221,16 @@ fn flat(context: &Context) -> TokenStream {
     let inward = context.inward(Coefficients::Given);
     let point = quote!(#rt::point(phi, #wrap(#own), #its_value));
     let point = context.outward(&quote!(#t), point, Coefficients::Given);
+    // Moves of numbers, which are cheapest as a part of what reads them.
     quote! {
+        #[inline]
         fn #flatten<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> Self::Full<#t> {
             #inward
             #bound
             #rt::joined([#(#parts),*])
         }
 
+        #[inline]
         fn #unflatten<#t: #rt::Real>(&self, #parameter full: &Self::Full<#t>) -> Self::Point<#t> {
             #read
             #dependent
