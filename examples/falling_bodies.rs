@@ -1,5 +1,5 @@
 //! Soft bodies that fall: 200 affine bodies in a frame loop, 60 frames a second; in free fall, and on a ground that
-//! they bounce off, a force at their corners. Both by splitting of order 2; on the ground by steps that follow their error, too.
+//! they bounce off, a force at their corners. Both by splitting of order 2, and by steps that follow their error.
 //!
 //! Each body is a `Flow` with a model of its own, stepped from frame to frame as a game or a controller would; then all of them are
 //! `Flows`, eight at once in the vectors of the processor, and have to be where they are alone, to the bit. What is measured
@@ -70,7 +70,7 @@ const FRAMES: u32 = 60;
 const STEPS: u32 = 16;
 /// Of steps that follow their error.
 const TOLERANCE: f64 = 1e-6;
-/// Seconds on the ground.
+/// Seconds on the ground, and of steps that follow their error.
 const BOUNCING: u32 = 2;
 const GRAVITY: f64 = 9.81;
 /// Softer than the body by far.
@@ -99,6 +99,7 @@ fn in_free_fall() -> affine_runtime::Result<()> {
         let (x, spin) = placed(k, 600.0);
         cube.at_velocity(x, Matrix::identity(), Vector::zeros(), spin)
     };
+    by_steps_of_their_own("in free fall", &cube, start)?;
     let step = 1.0 / f64::from(FRAMES * STEPS);
     let method = Method::Splitting { order: 2, step };
     let (bodies, starts, least) = fallen("in free fall", &cube, (method, SECONDS), start)?;
@@ -129,11 +130,7 @@ fn on_the_ground() -> affine_runtime::Result<()> {
         let (x, spin) = placed(k, 1.5);
         cube.at_velocity(x, Matrix::identity(), Vector::zeros(), spin)
     };
-    let (by_error, name) = ((Method::RungeKutta8, BOUNCING), "on the ground, Runge-Kutta 8");
-    let (bodies, starts, least) = fallen(name, &cube, by_error, start)?;
-    println!("least: {least:.0} ns a body and frame");
-    let ends: Vec<_> = bodies.iter().map(Flow::point).collect();
-    together(name, &cube, by_error, [&starts, &ends])?;
+    by_steps_of_their_own("on the ground", &cube, start)?;
     let method = Method::Splitting { order: 2, step: 1.0 / f64::from(FRAMES * STEPS) };
     let (bodies, starts, least) = fallen("on the ground", &cube, (method, BOUNCING), start)?;
     println!("least: {:.0} ns a body and step", least / f64::from(STEPS));
@@ -216,6 +213,22 @@ fn fallen<M: Model<3> + Clone + 'static>(
         println!("{name}, t = {second:>2}: {cost:.0} ns a body and frame");
     }
     Ok((bodies, starts, least))
+}
+
+/// Each body, and then eight at once, by steps that follow their errors.
+fn by_steps_of_their_own<M: InLanes<3> + Splitting<3> + Clone + Send + Sync + 'static>(
+    name: &str,
+    model: &M,
+    start: impl Fn(usize) -> affine_runtime::Result<M::Point<f64>>,
+) -> affine_runtime::Result<()>
+where
+    M::Point<f64>: Send,
+{
+    let (method, name) = ((Method::RungeKutta8, BOUNCING), format!("{name}, Runge-Kutta 8"));
+    let (bodies, starts, least) = fallen(&name, model, method, start)?;
+    println!("least: {least:.0} ns a body and frame");
+    let ends: Vec<_> = bodies.iter().map(Flow::point).collect();
+    together(&name, model, method, [&starts, &ends])
 }
 
 /// The same bodies eight at once: where they are alone, in less time.

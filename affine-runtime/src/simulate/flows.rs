@@ -116,8 +116,10 @@ where
     }
 
     /// Bodies from phase points at one time, by [`Method::RungeKutta8`] to a tolerance, the relative error that is allowed in each
-    /// step, as in [`Flow::set_tolerance`](super::Flow::set_tolerance). The lengths of steps go on from frame to frame. Lanes are
-    /// full where bodies need about as many steps as each other.
+    /// step, as in [`Flow::set_tolerance`](super::Flow::set_tolerance). The lengths of steps go on from frame to frame.
+    ///
+    /// A body waits in its lane for those that need more steps to the frame. Bodies that hit something at different times, by a
+    /// force of the user's own, are moved faster by splitting, or each as a `Flow`.
     ///
     /// # Errors
     /// As [`Flow::by`](super::Flow::by): a [`Stop`] with [`Reason::Setting`] for a tolerance or a time that makes no sense; with
