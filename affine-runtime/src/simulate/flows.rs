@@ -119,7 +119,7 @@ where
     /// step, as in [`Flow::set_tolerance`](super::Flow::set_tolerance). The lengths of steps go on from frame to frame.
     ///
     /// A body waits in its lane for those that need more steps to the frame. Bodies that hit something at different times, by a
-    /// force of the user's own, are moved faster by splitting, or each as a `Flow`.
+    /// force of the user's own, gain nothing by lanes; by splitting they do.
     ///
     /// # Errors
     /// As [`Flow::by`](super::Flow::by): a [`Stop`] with [`Reason::Setting`] for a tolerance or a time that makes no sense; with
