@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use affine_runtime::force::{AtPoint, Force, Motion, PointForce, Translation};
 use affine_runtime::frames::Space;
@@ -109,6 +110,35 @@ impl PointForce<2> for Spring {
 pub(crate) struct Held {
     pub(crate) press: AtPoint<2, Spring, Translation, 2>,
     pub(crate) turn: AtPoint<2, Spring, Space, 2>,
+}
+
+/// A push that has no value beyond `x[1] = 2`, and notes where it is asked although no body could be there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Push(pub(crate) &'static AtomicBool);
+
+impl Force<2> for Push {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, Motion { x, phi, .. }: &Motion<2, T>) -> Vector<2, T> {
+        let determinant = phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)];
+        let is_finite = determinant - determinant == T::zero();
+        if determinant == T::zero() || !is_finite {
+            self.0.store(true, Ordering::Relaxed);
+        }
+        Vector::<2, T>::new((T::constant(2.0, 0.0) - x[0]).sqrt(), T::zero())
+    }
+}
+
+/// Pushed along the first axis.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = orthogonality(10),
+    forces = custom(push, translation, position),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pushed {
+    pub(crate) push: Push,
 }
 
 /// A constant force of 2 that knows how often it was asked for.

@@ -1,5 +1,7 @@
 //! Many bodies of one loop: what each of them does by itself, what may change in between, and what is refused.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use affine_runtime::capability::{InLanes, Splitting};
 use affine_runtime::force::AtPoint;
 use affine_runtime::model::{Handle, Owned};
@@ -7,7 +9,8 @@ use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting, Stop};
 
 use crate::models::{
-    Block, Cube, Driven, Dust, Held, PreparedDust, Slanted, Spring, Walled, block, sheared, strained, thrown,
+    Block, Cube, Driven, Dust, Held, PreparedDust, Push, Pushed, Slanted, Spring, Walled, block, sheared,
+    strained, thrown,
 };
 
 type PointOf<const N: usize, M> = <M as Model<N>>::Point<f64>;
@@ -242,6 +245,45 @@ fn stops_alone(way: Method) {
     assert!(format!("{flows:?}").contains("alone: 0"), "{flows:?}");
 }
 
+/// Three bodies in eight lanes, the second of which comes to where the push has no value: it stops there, as by itself, the others go
+/// on, and no force is asked in lanes where no body is. Nothing begins where there is no value.
+#[test]
+fn a_force_without_a_value_stops_its_body_alone() {
+    static WAS_ASKED_NOWHERE: AtomicBool = AtomicBool::new(false);
+    let pushed = Pushed { push: Push(&WAS_ASKED_NOWHERE) };
+    let start = |x: f64| {
+        let (x, v) = (Vector::<2>::new(x, 0.0), Vector::<2>::new(0.3, 0.0));
+        pushed.at_velocity(x, strained(), v, 0.3 * sheared()).unwrap()
+    };
+    let bodies = [-8.0, 1.5, -6.0].map(|x| (Owned(pushed), start(x)));
+    for way in WAYS {
+        let mut flows = together(way, bodies.to_vec()).unwrap();
+        let mut alone = alone(way, &bodies);
+        for _ in 0..20 {
+            let moved = flows.advance(0.1);
+            let own: Vec<bool> = alone.iter_mut().map(|body| body.advance_to(flows.t()).is_ok()).collect();
+            assert_eq!(moved.is_ok(), !own.contains(&false), "{way:?}");
+            assert!(flows.stopped().map(|(number, _)| own[number]).all(|moves| !moves), "{way:?}");
+            for number in [0, 2] {
+                assert_eq!(flows.point(number), Some(alone[number].point()), "{way:?}");
+            }
+        }
+        assert!(flows.stopped().map(|(number, _)| number).eq([1]), "{way:?}");
+        // Steps of their own lengths begin anew beside the lane, and come to another place before the last value.
+        let (off, apart) = ((flows.point(1).unwrap().x() - alone[1].point().x()).norm(), [1e-12, 0.1]);
+        assert!(off < apart[usize::from(way != METHOD)], "{way:?}: {off:e}");
+        flows.set_point(1, start(0.0)).unwrap();
+        flows.advance(0.1).unwrap();
+        assert_eq!((flows.stopped().count(), flows.len()), (0, 3));
+    }
+    assert!(!WAS_ASKED_NOWHERE.load(Ordering::Relaxed));
+    let mut flows = together(Method::RungeKutta8, bodies.to_vec()).unwrap();
+    assert_eq!(flows.set_point(0, start(2.5)).unwrap_err().reason, Reason::NotFinite);
+    assert_eq!(flows.point(0), Some(bodies[0].1), "it stays where it is");
+    let beyond = together(Method::RungeKutta8, vec![(Owned(pushed), start(2.5))]);
+    assert_eq!(beyond.err().unwrap().reason, Reason::NotFinite);
+}
+
 /// So many that threads share them: each is still the body of its number.
 #[test]
 fn more_bodies_than_one_thread_takes() {
@@ -279,6 +321,9 @@ fn a_body_of_too_many_steps_waits_where_it_is() {
         assert_eq!((stop.reason, stop.t, stop.steps), (own.reason, own.t, 6), "{number}");
     }
     assert!(flows.points().eq(alone.iter().map(Flow::point)));
+    flows.set_max_steps(0);
+    assert_eq!(flows.advance(0.1).unwrap_err().reason, Reason::StepLimit { limit: 0 });
+    flows.advance(0.0).unwrap();
     flows.set_max_steps(1000);
     flows.advance(0.1).unwrap();
     alone.iter_mut().for_each(|body| {

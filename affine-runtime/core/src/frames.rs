@@ -78,7 +78,7 @@ macro_rules! frame {
         impl Frame for $frame {
             const MOMENTUM: &'static str = $momentum;
 
-            $(#[allow(unused_variables, reason = "where it is the same")]
+            $(#[allow(unused_variables, reason = "in its own frame a spin does not read `phi`")]
             fn $to<const N: usize, T: Real>($phi: &Matrix<N, T>, $spin: &Matrix<N, T>) -> Matrix<N, T> {
                 $in_frame
             })+

@@ -357,12 +357,13 @@ where
         }
         long_enough(self.t, t_end)?;
         self.plan.checked_step(self.t, t_end)?;
-        let limit = self.plan.max_steps;
-        let count = self.plan.method.step().and_then(|step| step_count(self.t, t_end, step));
-        match count.is_none_or(|count| count <= limit) {
-            true => Ok(t_end != self.t),
-            false => Err(Reason::StepLimit { limit }),
+        if t_end == self.t {
+            return Ok(false);
         }
+        let (limit, step) = (self.plan.max_steps, self.plan.method.step());
+        // Steps of their own lengths are one at least, and counted for each body.
+        let least = step.map_or(1, |step| step_count(self.t, t_end, step).unwrap_or(u64::MAX));
+        if least <= limit { Ok(true) } else { Err(Reason::StepLimit { limit }) }
     }
 }
 

@@ -49,26 +49,5 @@ fn isotropic_energy<T: Real>(oh: &Matrix<3, T>, [i, a, b]: [f64; 3]) -> T {
 
 /// A description with a name; each fixture fills in what simulations read.
 const fn description(name: &'static str) -> Description {
-    const NO_FORMULA: Formula = Formula::plain("");
-    const NOTHING: Operations = Operations { mul: 0, add: 0, div: 0, sqrt: 0, exp: 0, ln: 0 };
-    Description {
-        name,
-        kinetic_energy: NO_FORMULA,
-        hamiltonian: NO_FORMULA,
-        equations: &[],
-        reduced_equations: &[],
-        signature: None,
-        conserved: &[],
-        conserved_at_rest: &[],
-        full: &[],
-        reduced: &[],
-        full_operations: NOTHING,
-        reduced_operations: NOTHING,
-        constraint: None,
-        second_order: false,
-        series: true,
-        domain: &[],
-        angles: &[],
-        left_out: &[],
-    }
+    Description { name, ..Description::PLAIN }
 }

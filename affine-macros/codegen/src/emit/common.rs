@@ -26,9 +26,9 @@ type Rows = Vec<Vec<Symbol>>;
 
 /// What it is given or gives back.
 struct Handed {
-    /// Whole matrices.
+    /// Matrices of which every entry is handed over, by their names.
     matrices: Vec<(Symbol, Rows)>,
-    /// Everything else.
+    /// The numbers that are in none of them.
     numbers: Vec<Symbol>,
 }
 
@@ -72,8 +72,8 @@ impl Function {
         Some(Self { common, arguments, results })
     }
 
-    /// The call by a program, and what is left of that. The matrices that it is given stand in rows of their names, or entry by
-    /// entry.
+    /// The call by a program, and what is left of that program. Matrices that the function is given are in variables of their
+    /// names, as rows, or their entries are in variables of their own.
     pub(super) fn called_by(&self, program: &Program, in_rows: bool) -> Option<(TokenStream, Program)> {
         let mut rest = self.common.taken_from(program)?;
         let argument = |name: &Symbol, rows: &Rows| if in_rows { named(name) } else { table(rows) };

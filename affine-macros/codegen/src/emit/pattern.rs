@@ -78,7 +78,7 @@ pub(super) fn list(symbols: &[Symbol]) -> TokenStream {
     quote!([#(#names),*])
 }
 
-/// A matrix likewise.
+/// The rows of a matrix as an expression, or as a pattern that binds all its entries.
 pub(super) fn table(rows: &[Vec<Symbol>]) -> TokenStream {
     let rows = rows.iter().map(|row| list(row));
     quote!([#(#rows),*])

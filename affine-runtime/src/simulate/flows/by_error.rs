@@ -42,25 +42,23 @@ where
             return [true; EIGHT];
         }
         let (t, together) = (self.t, self.bodies.together());
-        let state = |lane: usize| {
+        let own = |lane: usize| {
             let point = self.anew[lane].filter(|_| self.has_body[lane]);
             point.map(|point| together.handles[lane].model().reduce(t, &point).0)
         };
-        let states = array::from_fn(state);
+        // A double of another in the lanes without a body: no force of the user is asked where no body could be.
+        let double = (0..EIGHT).find_map(own);
+        let states = array::from_fn(|lane| if self.has_body[lane] { own(lane) } else { double });
         let starts = self.bodies.starts((t, &states), t_end);
-        let double = states.iter().zip(&starts).find_map(|(state, start)| state.as_ref().zip(start.as_ref()));
-        for lane in 0..EIGHT {
-            match (&states[lane], &starts[lane], double) {
-                (Some(state), Some(start), _) => self.bodies.start(lane, (t, state), start),
-                // No force of the user is asked where no body could be.
-                (None, _, Some((state, start))) if !self.has_body[lane] => {
-                    self.bodies.start(lane, (t, state), start);
+        for (lane, (state, start)) in states.iter().zip(&starts).enumerate() {
+            if let (Some(state), Some(start)) = (state, start) {
+                self.bodies.start(lane, (t, state), start);
+                if !self.has_body[lane] {
                     self.bodies.rest(lane);
                 }
-                _ => {}
             }
         }
-        array::from_fn(|lane| states[lane].is_none() || starts[lane].is_some())
+        array::from_fn(|lane| !self.has_body[lane] || states[lane].is_none() || starts[lane].is_some())
     }
 
     /// A body leaves its lane from its last good point.
@@ -85,8 +83,10 @@ where
     fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool {
         let model = handle.model();
         let (state, constants) = model.reduce(self.t, point);
-        let is_sound = stands::<N, H>(&state) && model.hamiltonian(self.t, point).is_finite();
-        let fits = is_sound && !is_looked_after(model, point);
+        let rates = model.reduced_equations(self.t, &constants, &state);
+        let is_sound = stands::<N, H>(&state) && rates.as_ref().iter().all(|rate| rate.is_finite());
+        let has_energy = model.hamiltonian(self.t, point).is_finite();
+        let fits = is_sound && has_energy && !is_looked_after(model, point);
         if fits {
             self.bodies.set_model(lane, handle.clone(), constants);
             (self.has_body[lane], self.anew[lane]) = (true, Some(*point));

@@ -8,9 +8,11 @@ use crate::inner::{SplittingInLanes, Sum, of_lane};
 use crate::integrate::Failure;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
-use crate::simulate::in_lanes::{EIGHT, Reduced, Together, moving};
+use crate::simulate::in_lanes::{EIGHT, Reduced, Together};
 use crate::simulate::layout::is_looked_after;
-use crate::simulate::motion::PointOf;
+use crate::simulate::mechanics::Moving;
+use crate::simulate::methods::by_splitting;
+use crate::simulate::motion::{Followed, PointOf};
 use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
 
 /// Eight bodies, or fewer, in equal steps.
@@ -72,7 +74,7 @@ where
             return false;
         }
         let (model, constants) = (handles[lane].model(), &of_lanes[lane]);
-        let moving = moving(model);
+        let moving = Moving { handle: Followed(model), begin: by_splitting };
         let begin = Moment::of(&moving, (t, &self.expanded(lane, (t, from))));
         let end = Moment::of(&moving, (t_end, &self.expanded(lane, (t_end, to))));
         let flow = |piece, t, h, state: &mut Sum<Reduced<N, H, f64>>| {

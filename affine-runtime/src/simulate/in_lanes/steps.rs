@@ -9,7 +9,7 @@ use crate::inner::{Fate, RungeKutta8InLanes, Start, starts_in_lanes};
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::mechanics::Moving;
-use crate::simulate::methods::automatic;
+use crate::simulate::methods::by_any_steps;
 use crate::simulate::motion::{Followed, PointOf, WithWork};
 use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
 use crate::simulate::settings::Plan;
@@ -155,9 +155,9 @@ where
     }
 }
 
-/// A model as far as its phase points go.
+/// A model as far as its phase points go, with the integrator that lanes have.
 pub(in crate::simulate) fn moving<'m, const N: usize, M: Model<N>>(
     model: &'m M,
 ) -> Moving<'m, N, Followed<'m, M>> {
-    Moving { handle: Followed(model), begin: automatic }
+    Moving { handle: Followed(model), begin: by_any_steps }
 }

@@ -230,7 +230,7 @@ impl Strains {
         strain
     }
 
-    /// The square of that.
+    /// The square of the strain, as symbols.
     pub(super) fn square(&self, arena: &mut Arena) -> Matrix {
         Matrix::symmetric(arena, Quantity::StrainSquare, self.n)
     }
@@ -257,7 +257,7 @@ fn invariants(arena: &mut Arena) -> [Expr; 4] {
     [first, of_square, of_cube, arena.symbol(Quantity::StrainMinors)]
 }
 
-/// A neighbour on the diagonal.
+/// The entry before one on the diagonal; after the first one, which has none before it.
 fn neighbour(a: usize) -> usize {
     if a == 0 { 1 } else { a - 1 }
 }

@@ -84,6 +84,7 @@ fn over_power_of_sum(n: usize, degree: u32, part: &Part) -> Option<BTreeMap<Vec<
     let agrees = part.iter().all(|((powers, exponents), c)| {
         quotient.get(exponents).is_some_and(|leading| *c == leading * &multinomial(powers))
     });
+    // None of the monomials of the power is missing.
     let monomials = multinomial(&[degree, exponent(n - 1).unsigned_abs()]);
     let count = &monomials * &Rational::whole(quotient.len());
     (agrees && count == Rational::whole(part.len())).then_some(quotient)
