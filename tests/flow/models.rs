@@ -120,7 +120,7 @@ impl Force<2> for Push {
     type Form = Translation;
     fn force<T: Scalar>(&self, Motion { x, phi, .. }: &Motion<2, T>) -> Vector<2, T> {
         let determinant = phi[(0, 0)] * phi[(1, 1)] - phi[(0, 1)] * phi[(1, 0)];
-        let is_finite = determinant - determinant == T::zero();
+        let is_finite = determinant * T::zero() == T::zero();
         if determinant == T::zero() || !is_finite {
             self.0.store(true, Ordering::Relaxed);
         }
