@@ -7,7 +7,7 @@ pub(crate) mod top;
 pub(crate) mod vibrating_body;
 
 use affine_runtime::frames::{Matrix, Vector};
-use affine_runtime::model::{Description, Formula, Operations};
+use affine_runtime::model::Description;
 use affine_runtime::scalar::{Real, Scalar};
 
 /// The placement of the benchmark problems.
