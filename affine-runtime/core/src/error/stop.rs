@@ -252,9 +252,9 @@ impl fmt::Display for Reason {
             ),
             Reason::StepLimit { limit } => write!(
                 f,
-                "the largest number of steps, {limit}, is used up: raise it with `.max_steps(n)`, loosen the \
-                 tolerance, or take another method: an implicit one where the model is stiff, Method::Rattle for masses under \
-                 det phi = 1 that are stretched far"
+                "the largest number of steps, {limit}, is used up: raise it by `.max_steps(n)`, that of a flow by \
+                 `.set_max_steps(n)`, loosen the tolerance, or take another method: an implicit one where the model is stiff, \
+                 Method::Rattle for masses under det phi = 1 that are stretched far"
             ),
             Reason::Event { event, t } => write!(
                 f,
