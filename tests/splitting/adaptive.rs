@@ -154,7 +154,9 @@ struct NotSplit;
 fn when_it_is_taken() {
     let taken = |kappa: f64, tolerance: f64| {
         let (model, start) = missile(kappa);
-        run(&model, start, (1.0, tolerance), Method::Automatic).computation().method
+        // The method is chosen before the first step.
+        let run = Simulation::new(&model, start).until(1.0).tolerance(tolerance).max_steps(100).run();
+        run.map_or_else(|halt| halt.trajectory.computation().method, |run| run.computation().method)
     };
     for (kappa, tolerance) in [(1e8, 1e-2), (1e10, 1e-3), (1e12, 1e-5)] {
         assert_eq!(taken(kappa, tolerance), ADAPTIVE, "{kappa:e} {tolerance:e}");

@@ -9,8 +9,8 @@ use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::curve::{GROUPS, defect, project, write};
 
-/// Unoptimised, a tenth: the bound grows with the root of the number of steps.
-const STEPS: u64 = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
+/// Unoptimised, a part of them: the bound grows with the root of the number of steps.
+const STEPS: u64 = if cfg!(debug_assertions) { 3_000 } else { 100_000 };
 
 const PLACEMENT: &[Group] = &[Group::new(Quantity::Placement, 9)];
 
