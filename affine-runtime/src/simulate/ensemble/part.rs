@@ -142,8 +142,7 @@ where
             return Some(Method::ClosedForm);
         }
         let stands = point.is_finite() && is_clearly_positive(point.phi());
-        let is_sound = stands && model.hamiltonian(t0, point).is_finite();
-        (is_looked_after(model, point) || self.t_end == t0 || !is_sound).then_some(Method::RungeKutta8)
+        (is_looked_after(model, point) || self.t_end == t0 || !stands).then_some(Method::RungeKutta8)
     }
 
     /// One body by itself.
