@@ -133,3 +133,12 @@ impl Sampled<2> for Unprotected {
         self.at_momentum(x, phi, p, TwoPoint(matrix::<2>(random, 0.2))).unwrap()
     }
 }
+
+/// A force that is in the range of numbers where the energy is not.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = tr(G)/2 + 1e300*x[1],
+    emit(lanes),
+)]
+pub(crate) struct Heavy;

@@ -4,7 +4,7 @@ use affine_runtime::lanes::{F64x8, FastF64x8, Lanes};
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting};
 
-use crate::models::{Elastic, Sampled, Top, Unprotected, vibrating};
+use crate::models::{Elastic, Heavy, Sampled, Top, Unprotected, vibrating};
 
 /// Two integrations with the tolerance 1e-11 per step, over some tens of steps.
 const INTEGRATION: f64 = 1e-9;
@@ -74,6 +74,20 @@ fn a_body_that_turns_inside_out_twice_within_a_step() {
         }
     }
     assert_eq!(lost, BODIES - 4, "those that are through by then");
+}
+
+/// The equations of such a body have values, by which it could go in lanes.
+#[test]
+fn a_body_whose_energy_is_out_of_range() {
+    let at = |height: f64| Heavy.unflatten(&[height, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.1]);
+    let starts = [1.0, 1e10, 2.0].map(at);
+    let ends = Ensemble::new(&Heavy, starts).until(1e-150).run().unwrap();
+    for (start, end) in starts.into_iter().zip(&ends) {
+        let alone = Simulation::new(&Heavy, start).until(1e-150).output([]).method(Method::RungeKutta8).run();
+        assert_eq!(*end, alone.map(|run| *run.end().1).map_err(|halt| halt.stop));
+    }
+    assert!(ends[0].is_ok() && ends[2].is_ok(), "{ends:?}");
+    assert!(matches!(ends[1].as_ref().unwrap_err().reason, Reason::Energy { .. }), "{ends:?}");
 }
 
 #[test]
