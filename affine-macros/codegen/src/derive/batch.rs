@@ -2,6 +2,7 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::above_diagonal;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
@@ -61,9 +62,7 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
         let mean = entries[0].add(&entries[1]).scaled(&half);
         shared.extend([(symmetric, mean), (skew, entries[0].sub(&entries[1]))]);
     }
-    let value =
-        |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
-    let mut result = batch(arena, &system.substitute(&value));
+    let mut result = batch(arena, &system.substitute(&listed(&replaced)));
     result.shared.extend(shared);
     result
 }

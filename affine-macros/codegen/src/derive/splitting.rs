@@ -1,6 +1,7 @@
 //! The flows of the pieces as programs over the reduced state.
 
 use crate::algebra::bind::Constants;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::mechanics::body::Body;
@@ -145,13 +146,9 @@ fn written(
             let mut results: Vec<(Symbol, Polynomial)> = results.collect();
             if *turns_momentum {
                 let dependent = reduction.chart.dependent();
-                let value = |s: Expr| {
-                    dependent.iter().find(|(symbol, _)| *symbol == s).map(|(_, value)| value.clone())
-                };
+                let value = |s: Expr| listed(&dependent)(s).unwrap_or_else(|| Polynomial::atom(s));
                 let entries = reduction.chart.m.0.concat().into_iter();
-                results.extend(entries.map(|s| {
-                    (name(arena, s).seen(Aspect::Turned), value(s).unwrap_or_else(|| Polynomial::atom(s)))
-                }));
+                results.extend(entries.map(|s| (name(arena, s).seen(Aspect::Turned), value(s))));
             }
             let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
             let program = program(arena, &Batch { shared: shared.clone(), results, ..Batch::default() });

@@ -40,10 +40,7 @@ impl Body<'_> {
         potential: Option<&Potential>,
     ) -> Option<Vec<Load>> {
         let own = self.motion.added(arena, chart)?.into_iter();
-        let mut loads: Vec<Load> = match chart.confined {
-            Some(group) => own.map(|load| load.confined(arena, chart, group)).collect(),
-            None => own.collect(),
-        };
+        let mut loads: Vec<Load> = own.map(|load| load.confined(arena, chart)).collect();
         if !self.forces.is_empty() {
             loads.push(self.motion.velocity_names(arena, chart));
         }

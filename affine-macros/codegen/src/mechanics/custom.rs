@@ -13,8 +13,9 @@ use super::charts::{Chart, Linear, Momentum};
 use super::conserved::{Conservation, Momenta};
 use super::equations::Load;
 use super::group_point::{GroupPoint, inverse};
-use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
+use super::shared::{CentreVelocity, Shared, on_momenta};
 use super::term::Frame;
+use super::transport;
 
 /// A field, or a function of the runtime, that computes a force or a potential.
 #[derive(Clone, Debug)]
@@ -149,7 +150,7 @@ impl Custom {
         let (name, results) = match on {
             On::Centre => {
                 let push = self.vector(shared.arena, n);
-                centre = push.iter().take(x_dot.len()).map(|push| Polynomial::atom(*push)).collect();
+                centre = Polynomial::vector(&push[..x_dot.len()]);
                 power = dot(centre.iter().zip(&x_dot));
                 ("translational_force", Group::Vector(push))
             }
@@ -161,18 +162,15 @@ impl Custom {
                 let symbols = self.matrix(shared.arena, Quantity::FieldForce, n);
                 let force = symbols.atoms();
                 let phi = chart.placement();
-                if home == frame_of(chart) {
-                    let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
+                if home == chart.frame() {
+                    let own = chart.velocity(shared.arena).atoms();
                     power = pair(&force, &own);
                     affine = force;
                 } else {
-                    let push = match home {
-                        Frame::Space => product(&shared.inverse(&phi), &force),
-                        _ => product(&force, &shared.inverse(&phi)),
-                    };
+                    let push = transport::momentum(home, &force, &shared.inverse(&phi));
                     let push = shared.matrix(Quantity::FieldPush.at([self.place]), &push);
                     power = pair(&push, &phi_dot);
-                    affine = shared.on_own(chart, &push);
+                    affine = transport::momentum(chart.frame(), &push, &phi);
                 }
                 (name, Group::Matrix(symbols.0))
             }
@@ -196,7 +194,7 @@ impl Custom {
         let opposite = self.by.unit(shared.arena).neg();
         let negative = |symbol: &Expr| opposite.mul(&Polynomial::atom(*symbol));
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
-        let affine = shared.on_own(chart, &push);
+        let affine = transport::momentum(chart.frame(), &push, &chart.placement());
         let centre = match (moves, chart.linear) {
             (true, Some(_)) => along_x.iter().map(negative).collect(),
             _ => vec![Polynomial::zero(); chart.p.len()],
@@ -320,8 +318,8 @@ type Parts = (Kernel, Square<Polynomial>, Vec<Polynomial>, Option<Polynomial>);
 
 /// `x, phi`; `x = 0` where the chart has none.
 fn placed(chart: &Chart) -> Vec<Group<Polynomial>> {
-    let x = chart.x.iter().map(|x| Polynomial::atom(*x)).collect();
-    vec![Group::Vector(or_zero(x, chart.dim)), Group::Matrix(chart.placement())]
+    let x = or_zero(Polynomial::vector(&chart.x), chart.dim);
+    vec![Group::Vector(x), Group::Matrix(chart.placement())]
 }
 
 fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {

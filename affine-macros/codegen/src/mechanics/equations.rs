@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use crate::algebra::ring::table;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Coordinate};
@@ -44,29 +45,41 @@ pub enum Form {
     ThroughVelocity,
 }
 
+impl Load {
+    /// The force on a coordinate.
+    pub(super) fn force(&self, z: Coordinate) -> Polynomial {
+        let found = self.forces.iter().find(|(known, _)| *known == z);
+        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+    }
+
+    /// What it moves by itself, of the coordinates that determine the others.
+    pub(super) fn alone(self, chart: &Chart) -> System {
+        let rates = chart.independent().into_iter().map(|z| (z, chart.symbol(z), self.force(z))).collect();
+        System { rates, shared: self.shared, kernels: self.kernels, work: self.work }
+    }
+}
+
 impl System {
     /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
     /// in others written through those.
     pub(super) fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
         let Some(group) = chart.confined else { return self };
-        let rate = |a, b| {
-            let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));
-            found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
-        };
-        let projected = group.projected(&table(chart.dim, rate));
+        let projected = group.projected(&table(chart.dim, |a, b| self.rate(Coordinate::M(a, b))));
         for (z, _, rate) in &mut self.rates {
             if let Coordinate::M(a, b) = z {
                 *rate = projected[*a][*b].clone();
             }
         }
         let (momenta, velocities) = (chart.dependent(), group.dependent(velocity));
-        let listed = |list: &[(Expr, Polynomial)], symbol: Expr| list.iter().any(|(s, _)| *s == symbol);
-        self.rates.retain(|(_, symbol, _)| !listed(&momenta, *symbol));
-        self.shared.retain(|(symbol, _)| !listed(&velocities, *symbol));
-        let value = |atom: Expr| {
-            momenta.iter().chain(&velocities).find(|(s, _)| *s == atom).map(|(_, value)| value.clone())
-        };
-        self.substitute(&value)
+        self.rates.retain(|(_, symbol, _)| listed(&momenta)(*symbol).is_none());
+        self.shared.retain(|(symbol, _)| listed(&velocities)(*symbol).is_none());
+        self.substitute(&listed(&[momenta, velocities].concat()))
+    }
+
+    /// The rate of a coordinate; zero of one that is not among those that move.
+    pub(super) fn rate(&self, z: Coordinate) -> Polynomial {
+        let found = self.rates.iter().find(|(known, ..)| *known == z);
+        found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone())
     }
 
     /// Replaces atoms by polynomials in every definition and every rate.
@@ -110,11 +123,7 @@ impl System {
             .shared
             .iter()
             .filter(|(_, p)| {
-                p.terms().len() == 0
-                    || (p.terms().len() == 1
-                        && p.terms().all(|(m, c)| {
-                            m.is_empty() || (m.len() == 1 && c.is_one() && arena.as_symbol(m[0]).is_some())
-                        }))
+                p.as_constant().is_some() || p.as_atom().is_some_and(|atom| arena.as_symbol(atom).is_some())
             })
             .cloned()
             .collect();

@@ -152,7 +152,7 @@ impl Hamiltonian {
         let Some((frame, inverse_mass)) = &self.translation else { return Polynomial::zero() };
         let squares = match (frame, chart.linear) {
             (Frame::Body, Some(Linear::Space)) => comoving(chart),
-            _ => chart.p.iter().map(|p| Polynomial::atom(*p)).collect(),
+            _ => Polynomial::vector(&chart.p),
         };
         squares.iter().map(|p| p.mul(p).mul(inverse_mass).scaled(&Rational::HALF)).sum()
     }
@@ -197,8 +197,7 @@ fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
 
 /// `p_hat = phi^T p`.
 fn comoving(chart: &Chart) -> Vec<Polynomial> {
-    let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
-    times(&transpose(&chart.placement()), &p)
+    times(&transpose(&chart.placement()), &Polynomial::vector(&chart.p))
 }
 
 /// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.

@@ -150,8 +150,7 @@ impl Hessian {
             self.blocks.iter_mut().for_each(|block| block.seen_from(congruent));
             return self;
         }
-        let slopes = congruent.energy.gradient(&velocities);
-        let form: Vec<Vec<Polynomial>> = slopes.iter().map(|slope| slope.gradient(&velocities)).collect();
+        let form = congruent.energy.hessian(&velocities);
         let mut blocks = blocks(&form, &entries(form.len()));
         for block in &mut blocks {
             let places = block.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k);

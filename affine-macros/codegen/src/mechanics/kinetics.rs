@@ -40,7 +40,7 @@ pub struct Kinetics {
 impl Kinetics {
     /// Of an energy that is a polynomial in the coordinates of a chart.
     pub fn polynomial(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Self {
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim);
+        let velocity = chart.velocity(arena);
         let (slopes, positions): (Vec<_>, Vec<_>) = gradient(chart, h)
             .into_iter()
             .partition(|(y, _)| matches!(y, Coordinate::P(_) | Coordinate::M(..)));

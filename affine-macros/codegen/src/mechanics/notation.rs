@@ -34,7 +34,7 @@ pub use letter::Letter;
 pub use matrix_name::MatrixName;
 pub use names::Notation;
 pub use sentence::{Exponent, Sentence, Summand};
-pub(super) use sentence::{commutator, product, rate, slope, trace};
+pub(super) use sentence::{commutator, half, product, rate, slope, trace};
 pub(super) use sum::Sum;
 pub use symbols::{FUNCTIONS, SYMBOLS, is_symbol};
 

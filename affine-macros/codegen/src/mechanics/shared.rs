@@ -1,11 +1,12 @@
 //! Quantities that forces share: velocities, `phi^-1`, forces themselves.
 
-use crate::algebra::ring::{Square, adjugate, determinant, pairs, product, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial};
+use crate::algebra::ring::{Square, adjugate, determinant, pairs, table, times, transpose};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
 use super::term::Frame;
+use super::transport;
 
 /// How the velocity of the centre of mass is known.
 #[derive(Clone, Debug)]
@@ -32,9 +33,7 @@ pub(super) struct Shared<'a> {
 impl Shared<'_> {
     /// The value under a name; what needs no name has none.
     pub(super) fn named(&mut self, symbol: impl Into<Symbol>, value: &Polynomial) -> Polynomial {
-        let is_name =
-            value.terms().len() == 1 && value.terms().all(|(monomial, c)| monomial.len() == 1 && c.is_one());
-        if value.is_zero() || is_name {
+        if value.is_zero() || value.as_atom().is_some() {
             return value.clone();
         }
         let symbol = self.arena.symbol(symbol);
@@ -76,18 +75,11 @@ impl Shared<'_> {
         let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
         self.matrix(Quantity::InversePlacement, &inverse)
     }
-}
 
-impl Shared<'_> {
     /// `phi_dot` through the affine velocity of the chart.
     pub(super) fn phi_dot(&mut self, chart: &Chart) -> Square<Polynomial> {
-        let phi = chart.placement();
-        let own = Matrix::symbols(self.arena, chart.momentum.velocity(), chart.dim).atoms();
-        match frame_of(chart) {
-            Frame::Body => product(&phi, &own),
-            Frame::Space => product(&own, &phi),
-            Frame::Flat => own,
-        }
+        let own = chart.velocity(self.arena).atoms();
+        transport::velocity(chart.frame(), &own, &chart.placement())
     }
 
     /// `x_dot`; nothing where the chart has no `p`.
@@ -96,13 +88,13 @@ impl Shared<'_> {
         let (own, inverse_mass) = match centre {
             CentreVelocity::Fixed => return Vec::new(),
             CentreVelocity::Defined { x_dot, .. } => {
-                return x_dot.iter().map(|v| Polynomial::atom(*v)).collect();
+                return Polynomial::vector(x_dot);
             }
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
         let phi = chart.placement();
         let per_mass: Vec<Polynomial> =
-            chart.p.iter().map(|p| Polynomial::atom(*p).mul(inverse_mass)).collect();
+            Polynomial::vector(&chart.p).iter().map(|p| p.mul(inverse_mass)).collect();
         match (linear, own) {
             (Linear::Body, _) => times(&phi, &per_mass),
             (Linear::Space, Frame::Body) => {
@@ -111,16 +103,6 @@ impl Shared<'_> {
                 times(&phi, &v_hat)
             }
             (Linear::Space, _) => per_mass,
-        }
-    }
-
-    /// The force on the affine momentum of the chart that a force on `Pi` is.
-    pub(super) fn on_own(&mut self, chart: &Chart, push: &Square<Polynomial>) -> Square<Polynomial> {
-        let phi = chart.placement();
-        match frame_of(chart) {
-            Frame::Body => product(push, &phi),
-            Frame::Space => product(&phi, push),
-            Frame::Flat => push.clone(),
         }
     }
 }
@@ -141,13 +123,4 @@ pub(super) fn on_momenta(
     let mut forces: Vec<_> = pairs(chart.dim).map(on_spin).collect();
     forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
     forces
-}
-
-/// The frame whose affine momentum the chart has.
-pub(super) fn frame_of(chart: &Chart) -> Frame {
-    match chart.momentum {
-        Momentum::Body => Frame::Body,
-        Momentum::Space | Momentum::Total => Frame::Space,
-        Momentum::Canonical => Frame::Flat,
-    }
 }

@@ -37,8 +37,10 @@ use super::brackets::poisson;
 use super::charts::{Coordinate, Momentum};
 use super::custom::Custom;
 use super::equations::{Form, Load, System};
+use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetics::Kinetics;
+use super::loads::of_potential;
 use super::potential::Potential;
 use super::reduction::Reduction;
 use super::separation::Separation;
@@ -76,12 +78,12 @@ pub fn splitting(
     (h, body): (&Hamiltonian, &Body),
     reduction: &Reduction,
 ) -> Option<Splitting> {
-    let (potential, accounted) = (body.potential, body.forces.accounted);
+    let (potential, forces) = (body.potential, body.forces);
     let own = own_dilatation(arena, h, potential, reduction);
     let summands = match (&reduction.dilatation, &own) {
         (Some(_), _) => separated(arena, reduction),
-        (None, Some(own)) => summands(arena, &own.h, (Some(&own.rest), accounted), reduction)?,
-        (None, None) => summands(arena, h, (potential, accounted), reduction)?,
+        (None, Some(own)) => summands(arena, &own.h, (Some(&own.rest), forces), reduction)?,
+        (None, None) => summands(arena, h, (potential, forces), reduction)?,
     };
     let kicks = kicks(arena, body, reduction)?;
     let summands: Vec<Summand> =
@@ -183,7 +185,7 @@ fn own_dilatation(
 fn summands(
     arena: &mut Arena,
     h: &Hamiltonian,
-    (potential, accounted): (Option<&Potential>, bool),
+    (potential, forces): (Option<&Potential>, &Forces),
     reduction: &Reduction,
 ) -> Option<Vec<Summand>> {
     let chart = &reduction.chart;
@@ -214,17 +216,8 @@ fn summands(
         });
     }
     if let Some(u) = potential {
-        let load = u.load(arena, chart);
-        let force =
-            |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-        let system = System {
-            rates: rates.collect(),
-            shared: load.shared.clone(),
-            kernels: load.kernels.clone(),
-            work: load.work.filter(|_| accounted),
-        };
-        let system = over_the_state(arena, reduction, system)?;
+        let load = of_potential(arena, chart, u, forces);
+        let system = over_the_state(arena, reduction, load.alone(chart))?;
         summands.push(Summand { name: "potential".into(), energy: None, system });
     }
     Some(summands)
@@ -264,18 +257,8 @@ fn acting(arena: &mut Arena, body: &Body, reduction: &Reduction, mut load: Load)
         let (kinetics, _) = body.motion.kinetics_without(arena, chart, skew).into_iter().next()?;
         load.shared.splice(0..0, kinetics.shared);
     }
-    let load = match chart.confined {
-        Some(group) => load.confined(arena, chart, group),
-        None => load,
-    };
-    let force = |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-    let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-    let rates = rates.collect();
-    over_the_state(
-        arena,
-        reduction,
-        System { rates, shared: load.shared, kernels: load.kernels, work: load.work },
-    )
+    let system = load.confined(arena, chart).alone(chart);
+    over_the_state(arena, reduction, system)
 }
 
 /// `Psi' = Psi O` and `O' = ` the forces, where the dilatation is out of the state.

@@ -6,7 +6,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::notation::{MatrixName, product, trace};
+use crate::mechanics::notation::{MatrixName, half, product, trace};
 use crate::mechanics::term::Coefficient;
 
 /// Energy and velocity through the inverse of a matrix.
@@ -88,10 +88,8 @@ fn is_inverse(
 ) -> bool {
     let places = || pairs(matrix.len());
     let named = |i: usize, j: usize| {
-        let mut terms = inverse[i][j].terms();
-        let alone = terms.len() == 1;
-        let atom = terms.next().filter(|(monomial, c)| alone && monomial.len() == 1 && c.is_one());
-        atom.is_some_and(|(monomial, _)| notation.is_inverse_entry(monomial[0], name, (i + 1, j + 1)))
+        let atom = inverse[i][j].as_atom();
+        atom.is_some_and(|atom| notation.is_inverse_entry(atom, name, (i + 1, j + 1)))
     };
     let by_name: Vec<bool> = (0..matrix.len()).map(|i| (0..matrix.len()).any(|j| named(i, j))).collect();
     places().all(|(i, j)| match (by_name[i], by_name[j]) {
@@ -133,8 +131,4 @@ fn on_pairs(arena: &mut Arena, k: &MatrixName, of: Momentum) -> Inertial {
         ],
         on_pairs: true,
     }
-}
-
-fn half(arena: &mut Arena, of: Sentence) -> Sentence {
-    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }

@@ -35,7 +35,7 @@ pub(super) fn known_forms(
 ) -> Vec<Known> {
     let n = chart.dim;
     let (phi, m) = (chart.placement(), chart.m.atoms());
-    let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
+    let p = Polynomial::vector(&chart.p);
     let commutators = Commutators::of(chart);
     let omega = || Sentence::from(velocity(chart.momentum));
     let mut known = Vec::new();

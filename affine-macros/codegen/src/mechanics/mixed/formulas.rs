@@ -1,11 +1,11 @@
 //! A mixed energy and its equations as formulas.
 
-use crate::algebra::{Arena, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Notation, Sentence, Sum, Summand, projection};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Letter, letters, product, rate, slope, trace};
+use crate::mechanics::notation::{Letter, half, letters, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
 
@@ -55,10 +55,6 @@ fn placement() -> Sentence {
     letter(letters::PLACEMENT)
 }
 
-fn half(arena: &mut Arena, of: Sentence) -> Sentence {
-    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
-}
-
 /// `H` through the velocities.
 pub fn hamiltonian(
     arena: &mut Arena,
@@ -102,8 +98,8 @@ pub fn internal_equations(
     if masses.body.is_some() {
         let mut sum = Sum::default();
         sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
-        let space = space_mass(arena, masses).neg();
-        sum.add(arena, notation, &space, rate(letters::CENTRE));
+        let [_, space] = masses.of_body_and_space(arena);
+        sum.add(arena, notation, &space.neg(), rate(letters::CENTRE));
         let own = sum.value().transposed();
         force.push(Summand::minus(product([placement().inverse(), rate(letters::CENTRE), own])));
     }
@@ -130,11 +126,9 @@ pub fn confined_equations(
     names: &ForceNames,
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
-    if let Some(mass) = masses.body {
-        let mass = Polynomial::normal_form(arena, mass).neg();
-        let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
-        force.add(arena, notation, &mass, product([v(), v().transposed()]));
-    }
+    let [mass, _] = masses.of_body_and_space(arena);
+    let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
+    force.add(arena, notation, &mass.neg(), product([v(), v().transposed()]));
     force.extend(potential.map(|_| Summand::plus(letters::COMOVING_AFFINE_FORCE)));
     force.extend(names.on_affine.iter().cloned());
     let projected = |of: Sentence| Sentence::Applied(letters::PROJECTION, vec![of]);
@@ -152,11 +146,6 @@ pub fn confined_equations(
     list
 }
 
-/// The mass of the energy `m/2 |x_dot|^2`.
-fn space_mass(arena: &mut Arena, masses: &Masses) -> Polynomial {
-    masses.space.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass))
-}
-
 /// The velocity of the centre of mass; `None` where it does not move.
 fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Sentence> {
     let p = || letter(letters::LINEAR_MOMENTUM);
@@ -166,8 +155,8 @@ fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> O
         (None, None) => return None,
         (Some(mass), None) => (mass, product([placement(), product(pulled())])),
         (None, Some(mass)) => (mass, p()),
-        (Some(mass), Some(_)) => {
-            let (space, body) = (space_mass(arena, masses), Polynomial::normal_form(arena, mass));
+        (Some(_), Some(_)) => {
+            let [body, space] = masses.of_body_and_space(arena);
             sum.add(arena, notation, &space, letters::GREEN);
             // A multiple of the identity.
             sum.add_number(arena, notation, &body);

@@ -10,8 +10,8 @@ use crate::mechanics::equations::Load;
 use crate::mechanics::group_point::{GroupPoint, inverse};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, product, slope};
-use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
+use crate::mechanics::transport;
 
 use super::Masses;
 
@@ -139,9 +139,8 @@ pub fn laws_hold(
     chart: &Chart,
     loads: &[Load],
 ) -> bool {
-    let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), chart.dim);
-    let masses = [masses.body, masses.space]
-        .map(|mass| mass.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass)));
+    let velocity = Matrix::symbols(arena, chart.frame().velocity(), chart.dim);
+    let masses = masses.of_body_and_space(arena);
     let points = GroupPoint::all(arena, chart, chart.confined);
     points.into_iter().all(|mut point| {
         loads.iter().for_each(|load| point.define(arena, &load.shared));
@@ -170,15 +169,10 @@ fn hold_at(
         |m: Square<Residue>| chart.confined.map_or_else(|| m.clone(), |group| group.projected(&m));
     let (phi, velocity) = (of(&chart.phi), of(velocity));
     let psi = inverse(&phi);
-    let phi_dot =
-        if frame_of(chart) == Frame::Body { ring::product(&phi, &velocity) } else { velocity.clone() };
+    let phi_dot = transport::velocity(chart.frame(), &velocity, &phi);
     let (mut momentum, mut rate) = (zero(&phi), zero(&phi));
     for part in parts.iter().filter(|part| !part.internal.is_empty()) {
-        let o = match part.frame {
-            Frame::Body => ring::product(&psi, &phi_dot),
-            Frame::Space => ring::product(&phi_dot, &psi),
-            Frame::Flat => phi_dot.clone(),
-        };
+        let o = transport::velocity(part.frame, &phi_dot, &psi);
         let form: Vec<Vec<Residue>> = part.form().iter().map(|row| row.iter().map(value).collect()).collect();
         let slopes = times(&form, &o.concat());
         let x = table(n, |a, b| slopes[n * b + a]);

@@ -10,6 +10,7 @@ use crate::mechanics::direction::{BasisVector, entries};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::term::Frame;
+use crate::mechanics::transport;
 use crate::symbol::Quantity;
 
 use super::placed::{Placed, matrix};
@@ -69,8 +70,7 @@ fn forms(part: &Kinetic, frame: Frame) -> Vec<Square<Polynomial>> {
     if frame != Frame::Flat || part.frame == frame {
         return vec![part.form()];
     }
-    let term =
-        |energy: &(usize, Polynomial)| Kinetic { internal: vec![energy.clone()], ..part.clone() }.form();
+    let term = |(place, energy): &(usize, Polynomial)| part.only(*place, energy).form();
     let (by_rows, others): (Vec<_>, Vec<_>) = part
         .internal
         .iter()
@@ -133,13 +133,11 @@ impl Placed {
         frame: Frame,
         (k, e): (usize, &Square<Polynomial>),
     ) -> Square<Polynomial> {
+        let phi_dot = transport::velocity(frame, e, &self.phi);
+        let value = transport::velocity(own, &phi_dot, &self.inverse);
         match (own, frame) {
-            (Frame::Flat, _) => product(&self.phi, e),
-            (_, Frame::Flat) => product(e, &self.inverse),
-            _ => {
-                let value = product(&product(&self.phi, e), &self.inverse);
-                matrix(arena, &mut self.shared, Quantity::TurnedVelocity.at([k + 1]), &value)
-            }
+            (Frame::Flat, _) | (_, Frame::Flat) => value,
+            _ => matrix(arena, &mut self.shared, Quantity::TurnedVelocity.at([k + 1]), &value),
         }
     }
 

@@ -3,7 +3,8 @@
 use super::letter::Letter;
 use super::matrix_name::MatrixName;
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr};
+use crate::algebra::text::sign;
+use crate::algebra::{Arena, Expr, Rational};
 
 /// A formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -120,6 +121,11 @@ pub(in crate::mechanics) fn trace(of: impl Into<Sentence>) -> Sentence {
     Sentence::Trace(Box::new(of.into()))
 }
 
+/// Half of it.
+pub(in crate::mechanics) fn half(arena: &mut Arena, of: Sentence) -> Sentence {
+    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
+}
+
 impl Sentence {
     fn raised(self, exponent: Exponent) -> Self {
         Self::Raised(Box::new(self), exponent)
@@ -194,6 +200,19 @@ impl Summand {
     pub(in crate::mechanics) fn minus(value: impl Into<Sentence>) -> Self {
         Self { negative: true, value: value.into() }
     }
+}
+
+/// A sum whose summands are `written` so.
+pub(super) fn summed(summands: &[Summand], written: impl Fn(&Sentence) -> String) -> String {
+    if summands.is_empty() {
+        return "0".to_owned();
+    }
+    let mut sum = String::new();
+    for Summand { negative, value } in summands {
+        sum.push_str(sign(*negative, sum.is_empty()));
+        sum.push_str(&written(value));
+    }
+    sum
 }
 
 /// Does a coefficient take brackets among factors?

@@ -6,7 +6,6 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
 use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::Potential;
@@ -38,7 +37,7 @@ impl Potential {
 
     /// The same with its slopes in a given way of writing.
     pub(super) fn load_in(&self, arena: &mut Arena, chart: &Chart, writing: Writing) -> Load {
-        let (along, means) = (frame_of(chart), Means::new(arena, chart, writing));
+        let (along, means) = (chart.frame(), Means::new(arena, chart, writing));
         let mut draft = Draft { arena, chart, along, means, load: Load::default(), pulled_back: None };
         if self.has_single_stretches() {
             let (kernel, shared) = principal::computed(draft.arena, chart, writing.counts());
@@ -52,7 +51,7 @@ impl Potential {
         let mut forces = draft.forces(&slopes);
         let centre = draft.force_on_centre(&slopes);
         if chart.momentum == Momentum::Total {
-            let x: Vec<Polynomial> = chart.x.iter().copied().map(Polynomial::atom).collect();
+            let x = Polynomial::vector(&chart.x);
             forces = sum(&forces, &outer(&x, &centre));
         }
         if let Some(group) = chart.confined {

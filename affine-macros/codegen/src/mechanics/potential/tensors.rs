@@ -6,7 +6,6 @@ use crate::algebra::ring::{Ring, Square, above_diagonal, adjugate, dot, pairs, p
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
 use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::base::Base;
@@ -44,7 +43,7 @@ pub(super) const TENSORS: [fn(usize, usize) -> Base; 2] = [Base::Green, Base::Fi
 
 /// Which of them a chart reads.
 pub(super) fn own(chart: &Chart) -> usize {
-    usize::from(frame_of(chart) == Frame::Space)
+    usize::from(chart.frame() == Frame::Space)
 }
 
 /// The entries of a tensor as symbols: those of the placement, or those of its `unit` part `Psi`.

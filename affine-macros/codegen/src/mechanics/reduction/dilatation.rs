@@ -11,6 +11,7 @@
 
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
 use crate::algebra::ring::{pairs, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -123,7 +124,7 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
     let velocity = velocity(arena, n);
     let forces = forces(arena, chart, &psi, load);
-    let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
+    let mut system = System { shared: forces.shared.clone(), work: forces.work.clone(), ..System::default() };
     let o = Matrix::symbols(arena, Quantity::IsochoricVelocity, n);
     for (a, b) in pairs(n) {
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
@@ -136,10 +137,7 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
         let rate = (0..n).map(|k| Polynomial::monomial(product(k))).sum();
         system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
     }
-    let force = |a: usize, b: usize| {
-        let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
-        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
-    };
+    let force = |a: usize, b: usize| forces.force(Coordinate::M(a, b));
     let nth = Rational::one_over(n);
     let half = Rational::HALF;
     let mean: Polynomial = (0..n).map(|a| force(a, a).scaled(&nth)).sum();
@@ -181,15 +179,14 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
     });
     let replaced: Vec<(Expr, Expr)> =
         pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
-    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, value)| *value);
-    let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
+    let is_undefined = |symbol: Expr| listed(&value_at_rest)(symbol).is_none();
     let mut at_rest = |form: &Polynomial| {
         let form = form.expression(arena);
         // Dilatations of a placement have no part in what vanishes.
-        let form = arena.replaced(form, &value);
+        let form = arena.replaced(form, &listed(&replaced));
         Polynomial::normal_form(arena, form)
     };
-    let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
+    let shared = load.shared.iter().filter(|(symbol, _)| is_undefined(*symbol));
     Load {
         shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
         forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),

@@ -1,6 +1,7 @@
 //! Flows in closed form, and which of them a system of equations has.
 
 use crate::algebra::ring::pairs;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
@@ -36,7 +37,7 @@ pub enum Flow {
 /// A system with its velocities written out.
 pub(super) fn expanded(mut system: System) -> System {
     let defined = std::mem::take(&mut system.shared);
-    system.substitute(&|atom| value_of(&defined, atom))
+    system.substitute(&listed(&defined))
 }
 
 /// The flow of a system, where it has one of the two forms.
@@ -156,23 +157,16 @@ pub(super) fn turns_along(
     let dependent = chart.dependent();
     chart.independent().into_iter().all(|z| {
         let Coordinate::M(a, b) = z else { return true };
-        let found = system.rates.iter().find(|(at, ..)| *at == z);
         // A component that keeps still must keep still in the commutator as well.
-        let rate = found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone());
-        commutator(chart, generator, right, a, b).substitute(&|atom| value_of(&dependent, atom)) == rate
+        commutator(chart, generator, right, a, b).substitute(&listed(&dependent)) == system.rate(z)
     })
 }
 
 /// Increments of the affine momentum under a constraint: of the entries that determine the others, in these.
 pub(super) fn confined(chart: &Chart, mut system: System) -> System {
     let dependent = chart.dependent();
-    system.rates.retain(|(_, symbol, _)| value_of(&dependent, *symbol).is_none());
-    system.substitute(&|atom| value_of(&dependent, atom))
-}
-
-/// The value of a symbol that has one.
-pub(super) fn value_of(values: &[(Expr, Polynomial)], symbol: Expr) -> Option<Polynomial> {
-    values.iter().find(|(s, _)| *s == symbol).map(|(_, value)| value.clone())
+    system.rates.retain(|(_, symbol, _)| listed(&dependent)(*symbol).is_none());
+    system.substitute(&listed(&dependent))
 }
 
 fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: usize) -> Polynomial {

@@ -39,7 +39,7 @@ pub(super) fn flow(
         let faded = |k: usize| Quantity::Faded.at([b + 1, k + 1]);
         let results: Vec<Expr> = (0..momenta.len()).map(|k| arena.symbol(faded(k))).collect();
         let time = Polynomial::atom(arena.symbol(Quantity::TimeOfFlow));
-        let values = momenta.iter().map(|z| Polynomial::atom(*z)).collect();
+        let values = Polynomial::vector(&momenta);
         let arguments = vec![Group::Scalar(time), Group::Matrix(matrix), Group::Vector(values)];
         let rise = |((z, symbol, _), rise): (&(Coordinate, Expr, Polynomial), &Expr)| {
             (*z, *symbol, Polynomial::atom(*rise))

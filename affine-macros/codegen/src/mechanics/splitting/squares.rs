@@ -22,7 +22,7 @@ use crate::mechanics::hessian::{Block, blocks};
 use crate::mechanics::reduction::Reduction;
 use crate::symbol::Quantity;
 
-use super::flows::{Flow, value_of};
+use super::flows::Flow;
 use super::summand::Summand;
 use super::turns::{self, Turn};
 
@@ -62,12 +62,11 @@ pub struct Principal {
 impl Squares {
     /// The squares of a quadratic energy of a chart's affine spin; `None` where it is degenerate.
     pub(super) fn of(arena: &mut Arena, chart: &Chart, energy: &Polynomial) -> Option<Self> {
-        let energy = energy.substitute(&|atom| value_of(&chart.dependent(), atom));
+        let energy = chart.reduced(energy);
         let momenta: Vec<Coordinate> =
             chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..))).collect();
         let symbols: Vec<Expr> = momenta.iter().map(|z| chart.symbol(*z)).collect();
-        let form: Vec<Vec<Polynomial>> =
-            energy.gradient(&symbols).iter().map(|slope| slope.gradient(&symbols)).collect();
+        let form = energy.hessian(&symbols);
         let mut squares = Self::default();
         for block in blocks(&form, &entries(symbols.len())) {
             let of_block = squares.of_block(arena, &block)?;
@@ -122,8 +121,8 @@ impl Principal {
     }
 
     fn squares(&self) -> Vec<(Polynomial, Vec<Polynomial>)> {
-        let atoms = |list: &Vec<Expr>| list.iter().map(|s| Polynomial::atom(*s)).collect();
-        self.values.iter().map(|s| Polynomial::atom(*s)).zip(self.vectors.iter().map(atoms)).collect()
+        let vectors = self.vectors.iter().map(|vector| Polynomial::vector(vector));
+        Polynomial::vector(&self.values).into_iter().zip(vectors).collect()
     }
 }
 
