@@ -42,9 +42,9 @@ use ways::Ways;
 
 pub use components::Components;
 pub use conserved::{Component, Conserved};
-pub use domain::{Domain, Sign, SignedArgument};
+pub use domain::Domain;
 pub use equations::Equations;
-pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
+pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource};
 use model::{Dynamics, Facts, Methods};
 pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, Variational, VelocitySide};

@@ -18,39 +18,10 @@ pub struct Domain {
     pub program: Program,
 }
 
-/// An argument that keeps its sign.
-pub struct SignedArgument<'a> {
-    /// The part of the potential that it stands in.
-    pub part: &'a str,
-    /// The function of the state, as written: `q`, `x[1]`.
-    pub argument: &'a str,
-    /// The sign that it keeps.
-    pub sign: Sign,
-}
-
-/// The sign that an argument keeps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
-    /// Above zero.
-    Positive,
-    /// Zero or above.
-    NotNegative,
-    /// That of the start.
-    NotZero,
-}
-
 impl Domain {
-    /// The arguments that keep their signs.
-    pub fn arguments(&self) -> impl Iterator<Item = SignedArgument<'_>> {
-        self.guards.iter().filter_map(|Guard { part, argument, bound, .. }| {
-            let sign = match bound {
-                Bound::Positive => Sign::Positive,
-                Bound::NotNegative => Sign::NotNegative,
-                Bound::NotZero => Sign::NotZero,
-                Bound::Angle => return None,
-            };
-            Some(SignedArgument { part, argument, sign })
-        })
+    /// The functions that keep their sign, and not their size.
+    pub fn signed(&self) -> impl Iterator<Item = &Guard> {
+        self.guards.iter().filter(|guard| guard.bound != Bound::Angle)
     }
 
     /// The parts with an angle that the time turns.

@@ -19,7 +19,7 @@ use crate::symbol::{Asked, Aspect, Capability, Quantity, Symbol};
 /// The two-polar form of a doubly isotropic model.
 pub struct TwoPolar {
     /// What the places are.
-    pub places: Places,
+    pub places: Variables,
     /// Symbols of the state, group after group.
     pub state: Vec<(Quantity, Vec<Symbol>)>,
     /// Symbols of the frames, beside the state.
@@ -40,27 +40,6 @@ pub struct TwoPolar {
     pub pieces: Option<PiecePrograms>,
     /// Its equations in ratios of stretches, if asked for.
     pub ratios: Option<RatioProgram>,
-}
-
-/// What is written on the diagonal of `D`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Places {
-    /// `q_a`, `D_aa = exp(q_a)`.
-    LogStretches,
-    /// `Q_a = D_aa`.
-    Stretches,
-    /// `q_a`, `D_aa = exp(i q_a)`.
-    Angles,
-}
-
-impl From<Variables> for Places {
-    fn from(variables: Variables) -> Self {
-        match variables {
-            Variables::LogStretches => Self::LogStretches,
-            Variables::Stretches => Self::Stretches,
-            Variables::Angles => Self::Angles,
-        }
-    }
 }
 
 /// Derives the programs of the lattice form, of U(n) or of GL(n).
@@ -119,7 +98,7 @@ pub(super) fn two_polar(
     };
     let pieces = pieces.map(|pieces| PiecePrograms::of(arena, &pieces, &stable, &mut program));
     TwoPolar {
-        places: lattice.variables.into(),
+        places: lattice.variables,
         couplings,
         rates: program(arena, &rates),
         framed: program(arena, &framed),

@@ -11,7 +11,7 @@ use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::number::Number;
 use super::pattern::{ident, in_rows};
-use super::point::{Moving, moving, wrapper};
+use super::point::{Moving, moving, phase_point, wrapper};
 use super::{mixed, quantities, refused};
 
 /// `at_momentum` and `at_velocity`.
@@ -134,9 +134,9 @@ struct Confinement {
 
 fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
     let rt = &context.names.rt;
-    let free = mixed::regular(context, quote!(#rt::phase_point(phi, spin, #centre)));
+    let point = mixed::regular(context, phase_point(context, &quote!(spin), centre));
     let Some(group) = context.constraint() else {
-        return Confinement { off: TokenStream::new(), tangent: TokenStream::new(), point: free };
+        return Confinement { off: TokenStream::new(), tangent: TokenStream::new(), point };
     };
     let tangent = quote! {
         #rt::on_the_group(#group, &phi)?;
@@ -146,7 +146,6 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
         ///
         /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
     };
-    let point = mixed::regular(context, quote!(#rt::confined_point(#group, phi, spin, #centre)));
     Confinement { off, tangent, point }
 }
 

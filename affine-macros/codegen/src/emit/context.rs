@@ -10,7 +10,7 @@ use crate::symbol::{Quantity, Symbol};
 
 use super::body::{Body, body};
 use super::common::Function;
-use super::names::Names;
+use super::names::{Names, variant};
 use super::number::{Number, number};
 use super::pattern::{ident, named};
 use super::scope::Scope;
@@ -71,8 +71,7 @@ impl Context<'_> {
     /// The constraint, as an expression.
     pub(super) fn constraint(&self) -> Option<TokenStream> {
         let rt = &self.names.rt;
-        let group = self.model.constraint?;
-        let group = format_ident!("{}", format!("{group:?}"));
+        let group = variant(self.model.constraint?);
         Some(quote!(#rt::Constraint::#group))
     }
 

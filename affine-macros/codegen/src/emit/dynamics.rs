@@ -1,7 +1,5 @@
 //! Energies, velocities and Hamilton's equations.
 
-use std::slice;
-
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -62,11 +60,10 @@ fn velocity(context: &Context) -> TokenStream {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
-    let masses = context.model.point.mixed_masses.as_ref().map(|masses| masses.velocity.clone());
+    let masses = context.model.point.mixed_masses.as_ref().map(|masses| &masses.velocity);
     let factor = context.model.point.mass.as_ref().map(|mass| mass.only(&Quantity::InverseMass.into()));
-    let programs: Vec<Program> =
-        [context.model.point.velocity.clone()].into_iter().chain(factor.or(masses)).collect();
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", &programs);
+    let programs = [&context.model.point.velocity].into_iter().chain(factor.as_ref().or(masses));
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", programs);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
@@ -97,8 +94,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
     let body = context.generic(program, Coefficients::Given);
     let (lets, energy) = (&body.lets, body.result());
-    let Evaluation { name, parameter } =
-        Evaluation::of_points(context, "kinetic_energy", slice::from_ref(program));
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "kinetic_energy", [program]);
     let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
@@ -133,9 +129,8 @@ fn hamiltonian(context: &Context) -> TokenStream {
     };
     let near = energy(program);
     let inward = context.inward(Coefficients::Given);
-    let programs: Vec<Program> =
-        [program].into_iter().chain(&context.model.point.hamiltonian_far_away).cloned().collect();
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", &programs);
+    let programs = [program].into_iter().chain(&context.model.point.hamiltonian_far_away);
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", programs);
     let Some(program) = &context.model.point.hamiltonian_far_away else {
         return quote! {
             fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
@@ -248,8 +243,7 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let time = time(program);
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let inline = context.inline();
-    let Evaluation { name, parameter } =
-        Evaluation::of(context, "hamilton_equations", slice::from_ref(program));
+    let Evaluation { name, parameter } = Evaluation::of(context, "hamilton_equations", [program]);
     quote! {
         #inline
         fn #name<#t: #rt::Scalar>(&self, #parameter #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {

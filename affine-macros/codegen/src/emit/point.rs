@@ -9,6 +9,7 @@ use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
+use super::names::variant;
 use super::number::Number;
 use super::pattern::{bound_entries, components, entries, ident, pattern, reads, table_pattern};
 
@@ -75,11 +76,16 @@ pub(super) fn moving(
 
 /// Wrapper of a vector or a matrix of these components.
 pub(super) fn wrapper(context: &Context, components: Components) -> TokenStream {
+    let (rt, wrapper) = (&context.names.rt, variant(components));
+    quote!(#rt::#wrapper)
+}
+
+/// The phase point of `phi` and a momentum, or why it is none: under a constraint both have to obey it.
+pub(super) fn phase_point(context: &Context, momentum: &TokenStream, centre: &TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    match components {
-        Components::Comoving => quote!(#rt::Comoving),
-        Components::Spatial => quote!(#rt::Spatial),
-        Components::TwoPoint => quote!(#rt::TwoPoint),
+    match context.constraint() {
+        None => quote!(#rt::phase_point(phi, #momentum, #centre)),
+        Some(group) => quote!(#rt::confined_point(#group, phi, #momentum, #centre)),
     }
 }
 

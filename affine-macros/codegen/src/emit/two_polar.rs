@@ -6,7 +6,7 @@ mod ratios;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, Places, TwoPolar};
+use crate::derive::{Components, TwoPolar};
 use crate::ir::Program;
 use crate::symbol::Symbol;
 
@@ -14,9 +14,10 @@ use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::description;
 use super::groups::groups;
+use super::names::variant;
 use super::number::number;
 use super::pattern::pattern;
-use super::point::{own_spin, wrapper};
+use super::point::{own_spin, phase_point, wrapper};
 
 /// The implementations of the lattice traits, where they were asked for.
 pub(super) fn implementations(context: &Context) -> TokenStream {
@@ -99,7 +100,6 @@ fn conversions(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
     let f64 = quote!(#rt::f64);
-    let confined = context.constraint();
     let centre = match context.model.translation {
         None => quote!(#rt::Pinned),
         Some(_) => {
@@ -128,10 +128,7 @@ fn conversions(context: &Context) -> TokenStream {
             }
         }
     };
-    let point = match confined {
-        None => quote!(#rt::phase_point(phi, #wrap(spin), #centre)),
-        Some(group) => quote!(#rt::confined_point(#group, phi, #wrap(spin), #centre)),
-    };
+    let point = phase_point(context, &quote!(#wrap(spin)), &centre);
     let items = quote! {
         fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
             #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, ::core::option::Option::None)
@@ -174,11 +171,7 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
     let (hamiltonian, equations) = &form.formulas;
     let hamiltonian = description::formula(context, &hamiltonian.text, hamiltonian.latex.as_deref());
     let equations = equations.iter().map(|f| description::formula(context, &f.text, f.latex.as_deref()));
-    let variables = match form.places {
-        Places::LogStretches => format_ident!("LogStretches"),
-        Places::Stretches => format_ident!("Stretches"),
-        Places::Angles => format_ident!("Angles"),
-    };
+    let variables = variant(form.places);
     let potential = match (context.model.description.has_forces, form.dilatation_only) {
         (false, _) => format_ident!("None"),
         (true, true) => format_ident!("Dilatation"),
