@@ -15,7 +15,7 @@ pub mod tangent;
 pub mod taylor;
 
 use crate::algebra::{Function, Rational};
-use crate::symbol::Symbol;
+use crate::symbol::{Quantity, Symbol};
 
 pub use call::Value;
 
@@ -84,6 +84,11 @@ impl Program {
         self.symbols().cloned().collect()
     }
 
+    /// Does it read the time?
+    pub fn reads_time(&self) -> bool {
+        self.symbols().any(|symbol| symbol.quantity() == Some(Quantity::Time))
+    }
+
     /// The results, by name.
     pub fn results(&self) -> impl Iterator<Item = &Symbol> {
         self.outputs.iter().map(|(name, _)| name)
@@ -127,6 +132,14 @@ impl Program {
             Op::Input(symbol) => self.calls.iter().find(|call| call.provides(symbol)),
             _ => None,
         }
+    }
+
+    /// With the calls, names and results of a program whose values have these places in it, and only what the results need.
+    pub(crate) fn ending_as(mut self, other: &Self, place: &[Value]) -> Self {
+        self.calls = other.calls.iter().map(|call| call.renumbered(place)).collect();
+        self.names = other.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
+        self.outputs = other.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
+        self.without_dead_steps()
     }
 
     /// Keeps only what the results need, in the same order.

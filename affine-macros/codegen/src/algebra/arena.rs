@@ -124,6 +124,12 @@ impl Arena {
         never_missing(symbol, "only symbols are asked for what they stand for", Quantity::Difference.into())
     }
 
+    /// The symbols that some expressions are for sure.
+    #[track_caller]
+    pub fn symbols_of(&self, symbols: &[Expr]) -> Vec<Symbol> {
+        symbols.iter().map(|symbol| self.symbol_of(*symbol)).collect()
+    }
+
     /// Name of an expression that is a symbol.
     #[track_caller]
     pub fn symbol_name(&self, symbol: Expr) -> String {

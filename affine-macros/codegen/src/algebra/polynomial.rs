@@ -338,6 +338,14 @@ impl Polynomial {
     }
 }
 
+/// Adds to what a list has for a key.
+pub fn add_to<K: PartialEq>(list: &mut Vec<(K, Polynomial)>, key: K, summand: &Polynomial) {
+    match list.iter_mut().find(|(known, _)| *known == key) {
+        Some((_, sum)) => sum.add_scaled(summand, &Rational::ONE),
+        None => list.push((key, summand.clone())),
+    }
+}
+
 impl Sum for Polynomial {
     fn sum<I: Iterator<Item = Self>>(summands: I) -> Self {
         let mut sum = Self::zero();

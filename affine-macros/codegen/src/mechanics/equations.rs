@@ -6,6 +6,8 @@ use crate::algebra::ring::table;
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
+use crate::symbol::Symbol;
+
 use super::charts::{Chart, Coordinate};
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
@@ -161,6 +163,11 @@ impl System {
             .chain(self.kernels.iter().flat_map(Kernel::inputs))
             .chain(self.rates.iter().map(|(_, _, p)| p))
             .chain(self.work.iter().map(|(_, p)| p))
+    }
+
+    /// What moves.
+    pub fn moved(&self, arena: &Arena) -> Vec<Symbol> {
+        self.rates.iter().map(|(_, symbol, _)| arena.symbol_of(*symbol)).collect()
     }
 
     /// The number of definitions, arguments and rates that use a symbol.

@@ -21,7 +21,7 @@ mod passing;
 pub mod rotation;
 pub mod turn;
 
-use crate::algebra::{Arena, Expr};
+use crate::algebra::{Arena, Expr, Polynomial};
 
 use super::body::Body;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
@@ -167,9 +167,10 @@ impl Reduction {
         self.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
-    /// Components of the state that vanish.
-    pub fn gauge(&self) -> &[Expr] {
-        self.turn.as_ref().map_or(&[], |turn| &turn.vanishing)
+    /// Zero for components of the state that vanish.
+    pub fn gauge(&self) -> impl Fn(Expr) -> Option<Polynomial> {
+        let vanishing = self.turn.as_ref().map_or(&[][..], |turn| &turn.vanishing);
+        |atom| vanishing.contains(&atom).then(Polynomial::zero)
     }
 
     /// With what is left in groups.

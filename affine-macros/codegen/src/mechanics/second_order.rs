@@ -30,7 +30,6 @@ pub fn second_order(
 ) -> Option<SecondOrder> {
     let split = splitting(arena, (h, body), reduction)?;
     let [kinetic, kick] = split.pieces.as_slice() else { return None };
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
     let half = |quantities: [Quantity; 2]| -> Vec<Expr> {
         let groups = reduction.states.iter().filter(|(quantity, _)| quantities.contains(quantity));
         groups.flat_map(|(_, symbols)| symbols.clone()).collect()
@@ -40,7 +39,7 @@ pub fn second_order(
         half([Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
     );
     let in_order = positions.len() == momenta.len()
-        && states.iter().take(2 * positions.len()).eq(positions.iter().chain(&momenta));
+        && reduction.symbols().iter().take(2 * positions.len()).eq(positions.iter().chain(&momenta));
     (split.nystrom && in_order).then_some(())?;
     let chart = &reduction.chart;
     let coordinate = |symbol: Expr| chart.coordinates().into_iter().find(|z| chart.symbol(*z) == symbol);

@@ -1,6 +1,7 @@
 //! A dilatation that moves by itself, `q'' = -U_dil'(q)/m`, in closed form.
 
 use crate::algebra::passage::DilatationalMotion;
+use crate::algebra::polynomial::add_to;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -136,11 +137,7 @@ fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
         let power = i64::try_from(count(up)).ok()? - i64::try_from(count(down)).ok()?;
         let key = (count(q), power);
         let rest = monomial.iter().copied().filter(|atom| ![q, up, down].contains(atom)).collect();
-        let rest = Polynomial::term(rest, weight.clone());
-        match powers.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
-            None => powers.push((key, rest)),
-        }
+        add_to(&mut powers, key, &Polynomial::term(rest, weight.clone()));
     }
     powers.retain(|(_, coefficient)| !coefficient.is_zero());
     powers.sort_by_key(|(key, _)| *key);

@@ -159,7 +159,7 @@ fn own_dilatation(
     if reduction.dilatation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
         return None;
     }
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+    let states = reduction.symbols();
     if !(0..chart.dim).all(|a| states.contains(&chart.m.0[a][a])) {
         return None;
     }
@@ -175,8 +175,7 @@ fn own_dilatation(
     // tr M^2 - (tr M)^2/n, of the traceless momentum.
     h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
     let gauge = reduction.gauge();
-    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
-    let spin = spin.iter().map(|entry| entry.substitute(&value)).collect();
+    let spin = spin.iter().map(|entry| entry.substitute(&gauge)).collect();
     Some(OwnDilatation { separation: Separation { slope, inverse_mass }, spin, energy, h, rest })
 }
 

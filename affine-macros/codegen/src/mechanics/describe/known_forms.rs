@@ -75,8 +75,7 @@ fn translation(
     // rest + coefficient * body
     let mut sum =
         |rest: Option<Sentence>, weight: &Polynomial, body: Sentence, components: Vec<Polynomial>| {
-            let mut sum = Sum::default();
-            sum.extend(rest.map(Summand::plus));
+            let mut sum = Sum::new(rest.map(Summand::plus));
             sum.add(arena, notation, weight, body);
             Known { value: sum.value(), shape: Shape::Other, components }
         };

@@ -198,20 +198,15 @@ impl Bases {
         let mut sum = energy(&by_rows, &is_inertia, arena);
         sum.add_scaled(&energy(&Polynomial::clone, &|term| !is_inertia(term), arena), &Rational::ONE);
 
-        let pair = |k: usize, l: usize| {
+        let product = |velocities: &[usize]| {
             let mut exponents = Exponents::new(n, frame);
-            [k, l].iter().for_each(|entry| exponents.multiply(*entry));
-            exponents
-        };
-        let weights: Option<Square<Rational>> =
-            (0..n * n).map(|k| (0..n * n).map(|l| self.root(&pair(k, l))).collect()).collect();
-        let weights = weights?;
-        let single = |k: usize| {
-            let mut exponents = Exponents::new(n, frame);
-            exponents.multiply(k);
+            velocities.iter().for_each(|entry| exponents.multiply(*entry));
             self.root(&exponents)
         };
-        let roots: Vec<Rational> = (0..n * n).map(single).collect::<Option<_>>()?;
+        let weights: Option<Square<Rational>> =
+            (0..n * n).map(|k| (0..n * n).map(|l| product(&[k, l])).collect()).collect();
+        let weights = weights?;
+        let roots: Vec<Rational> = (0..n * n).map(|k| product(&[k])).collect::<Option<_>>()?;
         let entries = velocity.concat();
         let square = |k: usize, l: usize| &weights[k][k] * &weights[l][l];
         let exact = sum.terms().all(|(monomial, _)| {

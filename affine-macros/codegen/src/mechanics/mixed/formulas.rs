@@ -39,9 +39,8 @@ impl Laws {
     /// Those of parts in the velocities of some frames, on a group or on all placements.
     fn of(frames: &[Frame], confined: bool) -> Self {
         let laws: Vec<&Law> = frames.iter().map(|frame| law(*frame, confined)).collect();
-        let (mut momentum, mut rate) = (Sum::default(), Sum::default());
-        momentum.extend(laws.iter().map(|law| Summand::plus((law.momentum)())));
-        rate.extend(laws.iter().filter_map(|law| law.rate).map(|rate| rate()));
+        let momentum = Sum::new(laws.iter().map(|law| Summand::plus((law.momentum)())));
+        let rate = Sum::new(laws.iter().filter_map(|law| law.rate).map(|rate| rate()));
         let own = laws.iter().filter_map(|law| law.own).map(|(name, value)| value().of(name)).collect();
         Self { own, momentum: momentum.value(), rate }
     }
@@ -64,8 +63,7 @@ pub fn hamiltonian(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Sentence {
-    let mut sum = Sum::default();
-    sum.push(Summand::plus(internal));
+    let mut sum = Sum::new([Summand::plus(internal)]);
     if !masses.are_none() {
         let power = product([letter(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
         sum.push(Summand::plus(half(arena, power)));
@@ -96,8 +94,7 @@ pub fn internal_equations(
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, false);
     if masses.body.is_some() {
-        let mut sum = Sum::default();
-        sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
+        let mut sum = Sum::new([Summand::plus(letters::LINEAR_MOMENTUM)]);
         let [_, space] = masses.of_body_and_space(arena);
         sum.add(arena, notation, &space.neg(), rate(letters::CENTRE));
         let own = sum.value().transposed();
@@ -109,9 +106,8 @@ pub fn internal_equations(
     list.push(Sentence::Solved(Box::new(momentum), Box::new(rate(letters::PLACEMENT))));
     list.push(force.of(rate(letters::CANONICAL_MOMENTUM)));
     if potential.is_some() {
-        let mut force = Sum::default();
-        force.push(Summand::minus(slope(letters::POTENTIAL, letters::PLACEMENT).transposed()));
-        list.push(force.of(letters::CANONICAL_FORCE));
+        let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
+        list.push(Sum::new([Summand::minus(push)]).of(letters::CANONICAL_FORCE));
     }
     list
 }
@@ -139,9 +135,8 @@ pub fn confined_equations(
     list.push(projection(group));
     if potential.is_some() {
         let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
-        let mut force = Sum::default();
-        force.push(Summand::minus(product([push, placement()])));
-        list.push(force.of(letters::COMOVING_AFFINE_FORCE));
+        let force = Summand::minus(product([push, placement()]));
+        list.push(Sum::new([force]).of(letters::COMOVING_AFFINE_FORCE));
     }
     list
 }
@@ -178,10 +173,8 @@ pub fn centre_equations(
     names: &ForceNames,
 ) -> Vec<Sentence> {
     let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };
-    let mut force = Sum::default();
-    if potential.is_some_and(Potential::moves_the_centre) {
-        force.push(Summand::minus(slope(letters::POTENTIAL, letters::CENTRE)));
-    }
-    force.extend(names.on_linear.iter().cloned());
+    let pull = potential.filter(|u| u.moves_the_centre());
+    let pull = pull.map(|_| Summand::minus(slope(letters::POTENTIAL, letters::CENTRE)));
+    let force = Sum::new(pull.into_iter().chain(names.on_linear.iter().cloned()));
     vec![velocity, force.of(rate(letters::LINEAR_MOMENTUM))]
 }

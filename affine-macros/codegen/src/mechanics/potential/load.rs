@@ -1,5 +1,6 @@
 //! The forces of a potential in every chart.
 
+use crate::algebra::polynomial::add_to;
 use crate::algebra::rational::exponent;
 use crate::algebra::ring::{Square, outer, pairs, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
@@ -121,11 +122,7 @@ fn on_axes(
         for k in 0..n {
             let stretch = principal::stretch(arena, k);
             let slope = slope.mul(&Polynomial::monomial(vec![stretch; base.degree()]));
-            let axis = Base::LogStretch(k);
-            match rest.iter_mut().find(|(base, _)| *base == axis) {
-                Some((_, own)) => own.add_scaled(&slope, &Rational::ONE),
-                None => rest.push((axis, slope)),
-            }
+            add_to(&mut rest, Base::LogStretch(k), &slope);
         }
     }
     rest

@@ -59,8 +59,7 @@ fn energy(h: &Hamiltonian, reduction: &Reduction) -> Option<Polynomial> {
     let (chart, rotation) = (&reduction.chart, &reduction.commuting.rotation);
     let mut energy = h.internal_in(chart, rotation.is_some())?;
     energy.add_scaled(&h.translation_in(chart), &Rational::ONE);
-    let gauge = reduction.gauge();
-    Some(chart.reduced(&energy).substitute(&|atom| gauge.contains(&atom).then(Polynomial::zero)))
+    Some(chart.reduced(&energy).substitute(&reduction.gauge()))
 }
 
 /// `T(z + r) - T(z)` of a quadratic form.

@@ -15,11 +15,9 @@ pub(super) struct Summand {
 /// The equations that move components of the reduced state; `None` where they move anything else that is kept as a
 /// constant.
 pub(super) fn over_the_state(arena: &Arena, reduction: &Reduction, system: System) -> Option<System> {
-    let gauge = reduction.gauge();
-    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
-    let mut system = system.substitute(&value);
+    let mut system = system.substitute(&reduction.gauge());
     system.rates.retain(|(_, _, rate)| !rate.is_zero());
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+    let states = reduction.symbols();
     let inside = system.rates.iter().all(|(_, symbol, _)| states.contains(symbol));
     inside.then(|| system.tidied(arena))
 }
