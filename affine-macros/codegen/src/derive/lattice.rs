@@ -65,17 +65,15 @@ pub(super) fn two_polar(
         equations.add(on_axes);
     }
     let stable = Stable::new(arena, &lattice);
-    let name = |arena: &Arena, s: &Expr| arena.symbol_of(*s);
-    let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
         Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
         Variables::Stretches => (Quantity::Stretches, Quantity::StretchMomenta),
     };
-    let mut state = vec![(place, names(arena, &lattice.q)), (momentum, names(arena, &lattice.p))];
-    let skew = [names(arena, &lattice.m), names(arena, &lattice.n)];
-    let [m, n] = skew.clone();
+    let [q, p, m, n] =
+        [&lattice.q, &lattice.p, &lattice.m, &lattice.n].map(|symbols| arena.symbols_of(symbols));
+    let mut state = vec![(place, q), (momentum, p)];
     let couplings = match lattice.dim {
-        2 => skew.concat(),
+        2 => [m, n].concat(),
         _ => {
             state.extend([(Quantity::SumCouplings, m), (Quantity::DifferenceCouplings, n)]);
             Vec::new()
@@ -141,8 +139,8 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
 
 /// Names of the frames' components.
 fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<Symbol>)> {
-    let names = |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_of(*s)).collect::<Vec<_>>();
-    vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
+    let [left, right] = [&frames.left, &frames.right].map(|symbols| arena.symbols_of(symbols));
+    vec![(Quantity::LeftRotation, left), (Quantity::RightRotation, right)]
 }
 
 /// The rates of the frames beside those of the state.

@@ -223,7 +223,6 @@ fn result(of: Quantity, polynomial: Polynomial) -> Batch {
 }
 
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
-    let name = |s: &Expr| arena.symbol_of(*s);
-    let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
+    let results = arena.symbols_of(&names.0.concat()).into_iter().zip(values.concat()).collect();
     Batch { results, ..Batch::default() }
 }

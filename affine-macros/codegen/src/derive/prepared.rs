@@ -2,9 +2,8 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::upper;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::direction::Direction;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Coefficient;
@@ -12,7 +11,7 @@ use crate::mechanics::term::Coefficient;
 use super::batch::{unbound, values};
 use super::metrics::{GivenMatrix, Preparation};
 use super::splitting::PrincipalProgram;
-use super::well_posed::{Condition, Factor, NumericBlock, Relation};
+use super::well_posed::{Condition, Factor, NumericBlock, Relation, eigenvalue};
 
 /// What `prepare()` computes and checks.
 pub struct Prepared {
@@ -84,14 +83,9 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
         for block in &part.hessian.blocks {
             match block.eigenvalue() {
                 Some(value) => {
-                    let (name, directions) = match block.basis[0].kind {
-                        Direction::Shear if isotropic => ("I + A", "symmetric traceless velocities (shear)"),
-                        Direction::Rotation if isotropic => ("I - A", "skew velocities (rotation)"),
-                        Direction::Dilatation if isotropic => {
-                            ("I + A + n B", "multiples of the identity (dilatation)")
-                        }
-                        _ => ("an eigenvalue of R", "one direction of the velocity"),
-                    };
+                    let named = isotropic.then(|| eigenvalue(block.basis[0].kind)).flatten();
+                    let (name, directions) =
+                        named.unwrap_or(("an eigenvalue of R", "one direction of the velocity"));
                     known.push((name, directions, value));
                 }
                 None if block.numbers().is_none() => {
@@ -145,8 +139,7 @@ pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -
 pub(super) fn inverted(arena: &mut Arena, motion: &Motion, required: bool) -> Vec<Step> {
     let positive = required || motion.polynomial().is_some_and(|(kinetic, _)| kinetic.is_dalembert());
     let blocks = motion.numeric_blocks().iter().map(|block| {
-        let name = |s: Expr| arena.symbol_of(s);
-        let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
+        let inverse = upper(block.form.len()).map(|(i, j)| arena.symbol_of(block.inverse[i][j])).collect();
         NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
     });
     blocks.map(Step::Inverse).collect()

@@ -12,7 +12,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::carried::Carried;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Asked, Capability, Quantity, Symbol};
+use crate::symbol::{Asked, Capability, Quantity};
 
 use super::batch::{batch, program as program_of, split_batch, unbound};
 use super::equations::Equations;
@@ -79,13 +79,12 @@ fn shortest(
     let mut inputs = chart.symbols();
     inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
-    let symbols = |list: &[Expr]| -> Vec<Symbol> { list.iter().map(|s| arena.symbol_of(*s)).collect() };
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
     let groups = [
-        (Quantity::Position, symbols(&chart.x)),
-        (Quantity::Placement, symbols(&chart.phi.0.concat())),
-        (linear, symbols(&chart.p)),
-        (chart.momentum.quantity(), symbols(&independent_momenta(chart))),
+        (Quantity::Position, arena.symbols_of(&chart.x)),
+        (Quantity::Placement, arena.symbols_of(&chart.phi.0.concat())),
+        (linear, arena.symbols_of(&chart.p)),
+        (chart.momentum.quantity(), arena.symbols_of(&independent_momenta(chart))),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
@@ -195,8 +194,7 @@ fn shortest_reduction(
         ..Batch::default()
     };
     let trajectory = program_of(arena, &definitions, coefficients, &inputs);
-    let symbol = |s: &Expr| arena.symbol_of(*s);
-    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
+    let groups = reduction.states.iter().map(|(group, of)| (*group, arena.symbols_of(of))).collect();
     let dependent = match reduction.conserved.affine {
         true => Program::default(),
         false => dependent(arena, &reduction.chart),

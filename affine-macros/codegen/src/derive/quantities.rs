@@ -18,7 +18,6 @@ use crate::optimise::Batch;
 use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
 use super::batch::{self, program};
-use super::components::Components;
 
 /// Quantities that are emitted where they are asked for.
 pub struct Quantities {
@@ -50,8 +49,8 @@ pub struct Balance {
 
 /// The two sides of balance laws.
 pub struct BalancedQuantities {
-    /// Each quantity with its components.
-    pub quantities: Vec<(Quantity, Components)>,
+    /// Each quantity with the frame of its components.
+    pub quantities: Vec<(Quantity, Frame)>,
     /// Point -> their entries, one quantity after the other.
     pub program: Program,
 }
@@ -278,7 +277,7 @@ fn balance(
     let centre = CENTRE.iter().zip(&laws.centre);
     let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered((*of, vector.clone()))).collect();
     let mut balanced = |quantities: &[(Quantity, Frame)], results| BalancedQuantities {
-        quantities: quantities.iter().map(|(of, frame)| (*of, (*frame).into())).collect(),
+        quantities: quantities.to_vec(),
         program: program(results),
     };
     Balance {

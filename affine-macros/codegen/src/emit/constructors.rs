@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, VelocitySide};
+use crate::derive::VelocitySide;
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -170,15 +170,15 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
         };
         sum = if sum.is_empty() { summand } else { quote!(#sum + #summand) };
     }
-    let wrapper = wrapper(context, context.model.spin());
+    let wrapper = wrapper(context, context.model.frame);
     quote!(#moving #lets #momenta let spin = #wrapper(#sum);)
 }
 
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let Some(program) = &context.model.point.mass else { return mixed::momentum_of_centre(context) };
-    let velocity = match context.model.centre() {
-        Some(Components::Comoving) => quote!(phi_inverse.tr_mul(&(phi_inverse * x_dot))),
+    let velocity = match context.model.translation {
+        Some(Frame::Body) => quote!(phi_inverse.tr_mul(&(phi_inverse * x_dot))),
         _ => quote!(x_dot),
     };
     let (lets, p) = context.times(velocity, (program, Quantity::Mass), Number::Double);

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, VelocitySide};
+use crate::derive::VelocitySide;
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -37,16 +37,16 @@ fn velocity(context: &Context) -> TokenStream {
         entries => in_rows(entries, context.model.dim),
     };
     let velocity = quote!(#rt::matrix(#rows));
-    let phi_dot = match context.model.spin() {
-        Components::Comoving => quote!(#rt::Phase::phi(point) * #velocity),
-        Components::Spatial => quote!(#velocity * #rt::Phase::phi(point)),
-        Components::TwoPoint => velocity,
+    let phi_dot = match context.model.frame {
+        Frame::Body => quote!(#rt::Phase::phi(point) * #velocity),
+        Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
+        Frame::Flat => velocity,
     };
-    let (mass, x_dot) = match (&context.model.point.mass, context.model.centre()) {
+    let (mass, x_dot) = match (&context.model.point.mass, context.model.translation) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
-        (Some(program), Some(components)) => {
-            let momentum = match components {
-                Components::Comoving => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
+        (Some(program), Some(frame)) => {
+            let momentum = match frame {
+                Frame::Body => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
                 _ => quote!(#rt::Phase::p(point)),
             };
             context.times(momentum, (program, Quantity::InverseMass), Number::Generic(t))
@@ -192,7 +192,7 @@ fn flat(context: &Context) -> TokenStream {
         quote!(#rt::vector(#components))
     };
     let own = matrix(context.model.frame.momentum());
-    let (phi, wrap) = (matrix(Quantity::Placement), wrapper(context, context.model.spin()));
+    let (phi, wrap) = (matrix(Quantity::Placement), wrapper(context, context.model.frame));
     let dependent = context.dependent(full);
     let p = match full.has(Quantity::ComovingLinearMomentum) {
         false => vector(Quantity::LinearMomentum),

@@ -3,7 +3,6 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use crate::derive::reads_time;
 use crate::ir::Program;
 use crate::symbol::{Quantity, Symbol};
 
@@ -102,5 +101,5 @@ pub(super) fn entries(of: Quantity, n: usize) -> Vec<Vec<Symbol>> {
 
 /// Name of the time as a parameter: an idle one where the program does not read it.
 pub(super) fn time(program: &Program) -> TokenStream {
-    if reads_time(program) { quote!(t) } else { quote!(_t) }
+    if program.reads_time() { quote!(t) } else { quote!(_t) }
 }

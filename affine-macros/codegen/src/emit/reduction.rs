@@ -12,7 +12,7 @@ use crate::symbol::{Quantity, Symbol};
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::parametric::{Method, asks_again};
-use super::passage::{any, components_of, programs, statements, value, variable};
+use super::passage::{any, frame_of, programs, statements, value, variable};
 use super::pattern::{bound, identifiers, pattern, time};
 use super::point::wrapper;
 use super::trajectory;
@@ -96,7 +96,7 @@ fn expand(context: &Context, passage: &Passage) -> TokenStream {
     let bound = pattern(&all, &needed);
     let lets = statements(context, &passage.outward, &all);
     let spin = passage.momentum.as_ref().map(|(quantity, momentum)| {
-        let (wrapper, momentum) = (wrapper(context, components_of(*quantity)), value(context, momentum));
+        let (wrapper, momentum) = (wrapper(context, frame_of(*quantity)), value(context, momentum));
         quote!(#wrapper(#momentum))
     });
     let centre = match &passage.centre {

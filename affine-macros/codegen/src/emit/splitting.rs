@@ -4,7 +4,6 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::algebra::passage::DilatationalMotion;
-use crate::derive::reads_time;
 use crate::derive::splitting::{FlowProgram, Programs};
 use crate::ir::{Op, Program, Value};
 use crate::symbol::Symbol;
@@ -42,7 +41,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         )
     });
     let is_read = |symbol: &Symbol| programs().any(|program| program.symbols().any(|read| read == symbol));
-    let time = if programs().any(reads_time) { quote!(t) } else { quote!(_t) };
+    let time = if programs().any(Program::reads_time) { quote!(t) } else { quote!(_t) };
     let constants = match trajectory::all(context).iter().any(is_read) {
         true => quote!(constants),
         false => quote!(_constants),

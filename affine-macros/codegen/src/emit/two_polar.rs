@@ -6,7 +6,7 @@ mod ratios;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, TwoPolar};
+use crate::derive::TwoPolar;
 use crate::ir::Program;
 use crate::symbol::Symbol;
 
@@ -98,7 +98,7 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
 
 fn conversions(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
-    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
+    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.frame));
     let f64 = quote!(#rt::f64);
     let centre = match context.model.translation {
         None => quote!(#rt::Pinned),
@@ -112,10 +112,7 @@ fn conversions(context: &Context) -> TokenStream {
         None => quote!(::core::option::Option::None),
         Some(program) => {
             let Body { lets, results } = context.double(program);
-            let side = match context.model.spin() {
-                Components::Comoving => quote!(Body),
-                _ => quote!(Space),
-            };
+            let side = variant(context.model.frame);
             let [inverse_alpha, inverse_beta, inverse_mu] = &results[..] else { return TokenStream::new() };
             quote! {
                 #lets

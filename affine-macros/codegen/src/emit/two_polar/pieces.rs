@@ -3,9 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, PieceProgram, TwoPolar};
+use crate::derive::{PieceProgram, TwoPolar};
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
+use crate::emit::names::variant;
 use crate::emit::pattern::{bound, pattern};
 use crate::emit::splitting::{added_at, as_factors, chosen, place};
 use crate::symbol::{Quantity, Symbol};
@@ -45,11 +46,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbo
 /// `1/mu` and the side of the rotation that is no piece.
 fn turning(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let side = match context.model.spin() {
-        Components::Comoving => quote!(Body),
-        Components::Spatial => quote!(Space),
-        Components::TwoPoint => return TokenStream::new(),
-    };
+    let side = variant(context.model.frame);
     // On U(n) there is none, and no coefficient of it is computed.
     let program = match (&context.model.point.isotropic, &context.spec.group) {
         (Some(program), None) => program,
