@@ -30,7 +30,15 @@ pub(super) fn unbound(arena: &mut Arena, results: Vec<(Symbol, Polynomial)>) -> 
 
 /// The program of values over the fields alone.
 pub(super) fn values(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    unbound(arena, values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect())
+    unbound(arena, numbered(Quantity::Value, values).collect())
+}
+
+/// Results by their numbers, from 1.
+pub(super) fn numbered(
+    of: Quantity,
+    results: impl IntoIterator<Item = Polynomial>,
+) -> impl Iterator<Item = (Symbol, Polynomial)> {
+    (1..).map(move |k| of.at([k])).zip(results)
 }
 
 /// The rates, and the power where the work is part of the motion.

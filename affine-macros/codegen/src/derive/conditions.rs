@@ -12,7 +12,7 @@ use crate::mechanics::term::{Coefficient, TermKind};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
-use super::batch::program;
+use super::batch::{numbered, program};
 use super::model::Regularity;
 use super::well_posed::{Condition, Factor, Relation, eigenvalue};
 
@@ -100,8 +100,8 @@ pub(super) fn regularity(
         for (block, count) in factorisation.blocks() {
             let sizes: Vec<Polynomial> =
                 block.diagonal().into_iter().map(|entry| size(arena, entry)).collect();
-            let values = block.upper.iter().chain(&sizes).enumerate();
-            let results = values.map(|(k, p)| (Quantity::Value.at([k + 1]), p.clone())).collect();
+            let values = block.upper.iter().chain(&sizes).cloned();
+            let results = numbered(Quantity::Value, values).collect();
             let batch = Batch { shared: shared.clone(), results, ..Batch::default() }.pruned(arena);
             let program = program(arena, &batch, coefficients, &phi);
             blocks.extend(std::iter::repeat_n((program, block.size), count));

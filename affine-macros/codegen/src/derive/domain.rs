@@ -8,7 +8,7 @@ use crate::mechanics::potential::{Bound, Guard, Potential};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
-use super::batch::program;
+use super::batch::{numbered, program};
 
 /// Where the potential has a value.
 pub struct Domain {
@@ -40,8 +40,7 @@ pub(super) fn domain(
 ) -> Option<Domain> {
     let potential = potential?;
     let (values, shared) = potential.domain_at_a_point(arena, chart)?;
-    let names = (1..).map(|k| Quantity::Guard.at([k]));
-    let batch = Batch { shared, results: names.zip(values).collect(), ..Batch::default() };
+    let batch = Batch { shared, results: numbered(Quantity::Guard, values).collect(), ..Batch::default() };
     let program = program(arena, &batch, coefficients, inputs);
     Some(Domain { guards: potential.domain().to_vec(), program })
 }

@@ -76,8 +76,13 @@ pub(super) fn well_posed(conditions: Vec<Condition>) -> impl Iterator<Item = Ste
 /// What `prepare()` has to find not negative in the dissipation.
 pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
     let Some(dissipation) = &forces.dissipation else { return Vec::new() };
-    let (mut conditions, mut blocks) = (Vec::new(), Vec::new());
-    let mut known: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
+    let (mut listed, mut blocks) = (Vec::new(), Vec::new());
+    let mut list = |name: &'static str, directions: &'static str, value: Polynomial| {
+        let condition = (name, directions, value);
+        if !listed.contains(&condition) {
+            listed.push(condition);
+        }
+    };
     for part in &dissipation.parts {
         let isotropic = part.form.terms.iter().all(|term| matches!(term.value, Coefficient::Scalar(_)));
         for block in &part.hessian.blocks {
@@ -86,7 +91,7 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
                     let named = isotropic.then(|| eigenvalue(block.basis[0].kind)).flatten();
                     let (name, directions) =
                         named.unwrap_or(("an eigenvalue of R", "one direction of the velocity"));
-                    known.push((name, directions, value));
+                    list(name, directions, value);
                 }
                 None if block.numbers().is_none() => {
                     blocks.push(Step::SemidefiniteForm(form_block(arena, &block.form, false)));
@@ -96,16 +101,15 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
         }
     }
     for (_, coefficient) in &dissipation.centre {
-        known.push(("the coefficient", "the velocity of the centre of mass", coefficient.clone()));
+        list("the coefficient", "the velocity of the centre of mass", coefficient.clone());
     }
-    let mut listed: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
-    for (name, directions, value) in known {
-        if !listed.contains(&(name, directions, value.clone())) {
-            let (factor, asked) = (Factor::Eigenvalue(name), (Relation::MomentumOfVelocity, false));
-            conditions.extend(Condition::of(arena, (factor, directions), asked, &value));
-            listed.push((name, directions, value));
-        }
-    }
+    let asked = (Relation::MomentumOfVelocity, false);
+    let conditions: Vec<Condition> = listed
+        .into_iter()
+        .filter_map(|(name, directions, value)| {
+            Condition::of(arena, (Factor::Eigenvalue(name), directions), asked, &value)
+        })
+        .collect();
     let conditions = (!conditions.is_empty()).then_some(Step::Semidefinite(conditions));
     conditions.into_iter().chain(blocks).collect()
 }

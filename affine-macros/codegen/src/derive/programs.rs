@@ -41,8 +41,8 @@ impl Body<'_> {
                 ways.push(split_batch(arena, chart, &system));
             }
         }
-        let time = self.time(arena);
-        Some(shortest(arena, chart, &ways, time, coefficients))
+        let inputs = self.inputs(arena, chart);
+        Some(shortest(arena, chart, &ways, &inputs, coefficients))
     }
 
     /// The reduction with the shortest equations, its programs, and those of what is asked for beside them.
@@ -73,11 +73,9 @@ fn shortest(
     arena: &mut Arena,
     chart: &Chart,
     ways: &[Batch],
-    time: Option<Expr>,
+    inputs: &[Expr],
     coefficients: &mut Constants,
 ) -> Equations {
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
     let groups = [

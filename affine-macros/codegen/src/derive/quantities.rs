@@ -10,14 +10,14 @@ use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::metric::Definitions;
+use crate::mechanics::metric::{Definitions, share};
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
 use crate::optimise::Batch;
 use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
-use super::batch::{self, program};
+use super::batch::{self, numbered, program};
 
 /// Quantities that are emitted where they are asked for.
 pub struct Quantities {
@@ -68,11 +68,11 @@ impl Body<'_> {
             true => Some(metric(arena, self.motion, coefficients)?),
             false => None,
         };
-        let time = self.time(arena);
+        let inputs = self.inputs(arena, chart);
         let acceleration = match asked.has(Capability::Acceleration) {
             true => {
                 let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
-                Some(acceleration(arena, chart, &system, time, coefficients))
+                Some(acceleration(arena, &system, &inputs, coefficients))
             }
             false => None,
         };
@@ -86,7 +86,7 @@ impl Body<'_> {
                 let own =
                     self.motion.hamiltonian().filter(|_| self.motion.internal().all(Kinetic::is_dalembert));
                 let laws = Laws::new(arena, chart, (&kinetics, &added, own), &acting);
-                Some(balance(arena, chart, &laws, time, coefficients))
+                Some(balance(arena, &laws, &inputs, coefficients))
             }
             false => None,
         };
@@ -105,7 +105,7 @@ fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> O
     }
     let entries = joined(&centre, &internal);
     let inverse = inverse(arena, motion, (&shared, &centre, &internal))?;
-    let (size, results) = (entries.len(), numbered(&entries));
+    let (size, results) = (entries.len(), of_matrix(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
     let mut program = |batch: &Batch| program(arena, batch, coefficients, &phi);
@@ -156,10 +156,9 @@ fn inverse(
             (shared, matrix)
         }
     };
-    let fresh = definitions.into_iter().filter(|(s, _)| !defined.iter().any(|(known, _)| known == s));
-    let shared = defined.iter().cloned().chain(fresh).collect();
-    let results = numbered(&joined(&of_centre, &of_internal));
-    Some(Batch { shared, results, ..Batch::default() }.pruned(arena))
+    share(&mut defined, definitions);
+    let results = of_matrix(&joined(&of_centre, &of_internal));
+    Some(Batch { shared: defined, results, ..Batch::default() }.pruned(arena))
 }
 
 /// That of the internal motion from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`:
@@ -223,7 +222,7 @@ fn pair(left: Expr, right: Expr) -> Polynomial {
     Polynomial::monomial([left, right])
 }
 
-fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
+fn of_matrix(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
     let name = |(row, values): (usize, &Vec<Polynomial>)| {
         let entry = |(column, value): (usize, &Polynomial)| {
             (Quantity::MatrixEntry.at([row + 1, column + 1]), value.clone())
@@ -236,46 +235,30 @@ fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
 /// `x'' = sum over z of dx'/dz z'`, by the chain rule through every quantity on the way to `x'`.
 fn acceleration(
     arena: &mut Arena,
-    chart: &Chart,
     system: &System,
-    time: Option<Expr>,
+    inputs: &[Expr],
     coefficients: &mut Constants,
 ) -> Program {
     let mut flow = Flow { system, slopes: Vec::new(), definitions: Definitions::new() };
     let velocities = system.rates.iter().filter(|(z, _, _)| matches!(z, Coordinate::X(_)));
-    let results = velocities
-        .enumerate()
-        .map(|(i, (_, _, rate))| (Quantity::Acceleration.at([i + 1]), flow.along(arena, rate)))
-        .collect();
+    let accelerations = velocities.map(|(_, _, rate)| flow.along(arena, rate));
+    let results = numbered(Quantity::Acceleration, accelerations).collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
-    program(arena, &batch, coefficients, &inputs)
+    program(arena, &batch, coefficients, inputs)
 }
 
 /// The quantities of the balance laws, entry after entry.
-fn balance(
-    arena: &mut Arena,
-    chart: &Chart,
-    laws: &Laws,
-    time: Option<Expr>,
-    coefficients: &mut Constants,
-) -> Balance {
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
+fn balance(arena: &mut Arena, laws: &Laws, inputs: &[Expr], coefficients: &mut Constants) -> Balance {
     let mut program = |results: Vec<(Symbol, Polynomial)>| {
         let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
         let batch = Batch { shared, kernels, results }.pruned(arena);
-        batch::program(arena, &batch, coefficients, &inputs)
-    };
-    let numbered = |(of, entries): (Quantity, Vec<Polynomial>)| -> Vec<(Symbol, Polynomial)> {
-        entries.into_iter().enumerate().map(|(k, entry)| (of.at([k + 1]), entry)).collect()
+        batch::program(arena, &batch, coefficients, inputs)
     };
     let internal = INTERNAL.iter().zip(&laws.internal);
-    let internal = internal.flat_map(|((of, _), matrix)| numbered((*of, matrix.concat()))).collect();
+    let internal = internal.flat_map(|((of, _), matrix)| numbered(*of, matrix.concat())).collect();
     let centre = CENTRE.iter().zip(&laws.centre);
-    let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered((*of, vector.clone()))).collect();
+    let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered(*of, vector.clone())).collect();
     let mut balanced = |quantities: &[(Quantity, Frame)], results| BalancedQuantities {
         quantities: quantities.to_vec(),
         program: program(results),

@@ -12,7 +12,7 @@ use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
 
-use super::batch::{self, batch, values};
+use super::batch::{self, batch, numbered, values};
 use crate::algebra::passage::DilatationalMotion;
 
 /// The pieces of a reduced motion.
@@ -154,8 +154,7 @@ fn written(
         }
         Flow::Dilatation { separation, spin } => {
             let mut batch = separation.batch();
-            let entries = spin.iter().enumerate();
-            batch.results.extend(entries.map(|(a, entry)| (Quantity::Spin.at([a + 1]), entry.clone())));
+            batch.results.extend(numbered(Quantity::Spin, spin.iter().cloned()));
             let program = program(arena, &batch);
             let (placement, momentum) = (placement(arena), momentum(arena));
             FlowProgram::Dilatation { placement, momentum, motion: (&separation.slope).into(), program }

@@ -131,23 +131,23 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let inward = context.inward(Coefficients::Given);
     let programs = [program].into_iter().chain(&context.model.point.hamiltonian_far_away);
     let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", programs);
-    let Some(program) = &context.model.point.hamiltonian_far_away else {
-        return quote! {
-            fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
-                #inward
-                #near
+    let value = match &context.model.point.hamiltonian_far_away {
+        None => near,
+        Some(program) => {
+            let far_away = energy(program);
+            quote! {
+                if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
+                    #far_away
+                } else {
+                    #near
+                }
             }
-        };
+        }
     };
-    let far_away = energy(program);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
             #inward
-            if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
-                #far_away
-            } else {
-                #near
-            }
+            #value
         }
     }
 }

@@ -49,7 +49,12 @@ pub(super) fn leading_pattern(components: &[Symbol], used: &[Symbol]) -> TokenSt
 /// The statement that binds those of some components that are used to what `from` points at, and the name of that parameter,
 /// an idle one where none is.
 pub(super) fn bound(components: &[Symbol], used: &[Symbol], from: &str) -> (TokenStream, Ident) {
-    if !reads(used, components) {
+    held(if reads(used, components) { components } else { &[] }, used, from)
+}
+
+/// The same of a parameter that is idle only where it holds nothing.
+pub(super) fn held(components: &[Symbol], used: &[Symbol], from: &str) -> (TokenStream, Ident) {
+    if components.is_empty() {
         return (TokenStream::new(), format_ident!("_{from}"));
     }
     let (bound, from) = (pattern(components, used), format_ident!("{from}"));

@@ -16,7 +16,7 @@ use super::description;
 use super::groups::groups;
 use super::names::variant;
 use super::number::number;
-use super::pattern::pattern;
+use super::pattern::{held, pattern};
 use super::point::{own_spin, phase_point, wrapper};
 
 /// The implementations of the lattice traits, where they were asked for.
@@ -44,18 +44,17 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let docs = docs(form);
     let function = |program: &Program, variables: &[Symbol]| {
         let used = program.inputs();
-        let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
+        let (couplings, _) = held(&form.couplings, &used, "couplings");
+        let bound = pattern(variables, &used);
         let body = context.generic(program, Coefficients::Own);
         let lets = &body.lets;
-        let couplings =
-            if form.couplings.is_empty() { quote!() } else { quote!(let #couplings = *couplings;) };
         (quote!(#couplings let #bound = *state; #lets), body)
     };
     let (rates, Body { results: rate_results, .. }) = function(&form.rates, &state);
     let (framed_rates, Body { results: framed_results, .. }) = function(&form.framed, &framed);
     let (energy, body) = function(&form.energy, &state);
     let energy_result = body.result();
-    let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
+    let (_, couplings) = held(&form.couplings, &[], "couplings");
     let pieces = pieces::implementation(context, form, &framed);
     let items = quote! {
         const LATTICE: #rt::LatticeDescription = #description;

@@ -32,6 +32,13 @@ impl Body<'_> {
         self.potential.and_then(Potential::time).or_else(|| self.forces.time(arena))
     }
 
+    /// What programs over a chart read: its coordinates, and the time.
+    pub fn inputs(&self, arena: &mut Arena, chart: &Chart) -> Vec<Expr> {
+        let mut inputs = chart.symbols();
+        inputs.extend(self.time(arena));
+        inputs
+    }
+
     /// What is added to the equations of the energy in a chart under a potential in place of its own.
     pub fn loads(
         &self,

@@ -9,6 +9,7 @@ use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Symbol;
 
 use super::charts::{Chart, Coordinate};
+use super::metric::share;
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
 #[derive(Clone, Debug, Default)]
@@ -101,12 +102,7 @@ impl System {
 
     /// Adds quantities and what they add to the rates.
     pub fn add(&mut self, load: &Load) {
-        for (symbol, definition) in &load.shared {
-            // Two loads may share a quantity; either definition has its value.
-            if !self.shared.iter().any(|(known, _)| known == symbol) {
-                self.shared.push((*symbol, definition.clone()));
-            }
-        }
+        share(&mut self.shared, load.shared.iter().cloned());
         self.kernels.extend(load.kernels.iter().cloned());
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
@@ -117,6 +113,21 @@ impl System {
             let (_, sum) = self.work.get_or_insert_with(|| (*symbol, Polynomial::zero()));
             sum.add_scaled(power, &Rational::ONE);
         }
+    }
+
+    /// Adds another system, with the rates of what moves there alone.
+    pub(super) fn join(&mut self, other: &Self) {
+        for (z, symbol, _) in &other.rates {
+            if self.rates.iter().all(|(known, ..)| known != z) {
+                self.rates.push((*z, *symbol, Polynomial::zero()));
+            }
+        }
+        self.add(&Load {
+            shared: other.shared.clone(),
+            kernels: other.kernels.clone(),
+            forces: other.rates.iter().map(|(z, _, rate)| (*z, rate.clone())).collect(),
+            work: other.work.clone(),
+        });
     }
 
     /// Drops shared quantities and calls that nothing uses, and puts in place those that are a single constant or atom.

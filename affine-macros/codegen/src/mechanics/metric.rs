@@ -7,6 +7,15 @@ use crate::symbol::Quantity;
 /// Quantities with their definitions, each in earlier ones.
 pub type Definitions = Vec<(Expr, Polynomial)>;
 
+/// Adds definitions of what has none yet. Two may define a quantity that they share; either definition has its value.
+pub fn share(known: &mut Definitions, definitions: impl IntoIterator<Item = (Expr, Polynomial)>) {
+    for (symbol, definition) in definitions {
+        if known.iter().all(|(other, _)| *other != symbol) {
+            known.push((symbol, definition));
+        }
+    }
+}
+
 /// `phi^-1 = adj(phi)/det phi`, entry `[A][i]`, as quantities with their definitions.
 pub fn inverse_placement(arena: &mut Arena, dim: usize) -> (Matrix, Definitions) {
     let phi = Matrix::symbols(arena, Quantity::Placement, dim);

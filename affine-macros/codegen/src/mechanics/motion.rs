@@ -16,7 +16,7 @@ use super::hamiltonian::Hamiltonian;
 use super::hessian::NumericBlock;
 use super::kinetic::Kinetic;
 use super::kinetics::Kinetics;
-use super::metric::Definitions;
+use super::metric::{Definitions, share};
 use super::mixed::{Internal, Legendre, Masses};
 use super::momentum_side::Stated;
 use super::shared::CentreVelocity;
@@ -248,9 +248,7 @@ impl Motion {
         };
         if chart.linear.is_some() && !self.moves_in_hamiltonian() {
             let (_, definitions) = self.masses.velocity(arena)?;
-            let fresh = definitions.into_iter().filter(|(s, _)| !shared.iter().any(|(known, _)| known == s));
-            let fresh: Definitions = fresh.collect();
-            shared.extend(fresh);
+            share(&mut shared, definitions);
             energy.add_scaled(&self.masses.energy(arena, chart), &Rational::ONE);
         }
         Some((shared, energy))

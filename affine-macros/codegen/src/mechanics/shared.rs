@@ -5,6 +5,7 @@ use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::metric::share;
 use super::term::Frame;
 use super::transport;
 
@@ -37,9 +38,7 @@ impl Shared<'_> {
             return value.clone();
         }
         let symbol = self.arena.symbol(symbol);
-        if !self.list.iter().any(|(known, _)| *known == symbol) {
-            self.list.push((symbol, value.clone()));
-        }
+        share(&mut self.list, [(symbol, value.clone())]);
         Polynomial::atom(symbol)
     }
 
@@ -68,9 +67,7 @@ impl Shared<'_> {
         // A symbol is not the number zero.
         let reciprocal = Polynomial::atom(self.arena.reciprocal(det));
         let inverse_det = self.arena.symbol(Quantity::InverseDeterminant);
-        if !self.list.iter().any(|(known, _)| *known == inverse_det) {
-            self.list.push((inverse_det, reciprocal));
-        }
+        share(&mut self.list, [(inverse_det, reciprocal)]);
         let inverse_det = Polynomial::atom(inverse_det);
         let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
         self.matrix(Quantity::InversePlacement, &inverse)

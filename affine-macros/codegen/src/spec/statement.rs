@@ -133,6 +133,11 @@ impl Spec {
         self.emit.iter().map(|capability| capability.value).collect()
     }
 
+    /// Where a capability is asked for, if it is.
+    pub fn emitted(&self, capability: Capability) -> Option<Region> {
+        self.emit.iter().find(|asked| asked.value == capability).map(|asked| asked.span)
+    }
+
     /// Where something is required, if it is.
     pub fn required(&self, requirement: Requirement) -> Option<Region> {
         self.require.iter().find(|required| required.value == requirement).map(|required| required.span)

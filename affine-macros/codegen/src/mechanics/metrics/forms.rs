@@ -107,9 +107,7 @@ impl Metrics {
                     Matrix(rows.iter().map(|row| row.iter().map(&mut constant).collect()).collect())
                 });
             }
-            Self::Given(metrics) => {
-                metrics.each_ref().map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))))
-            }
+            Self::Given(metrics) => patterns(arena, metrics),
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
             let number = rebased.len() + 1;
@@ -125,15 +123,20 @@ impl Metrics {
     }
 }
 
+/// Where the factors of metrics that depend on fields can differ from zero.
+fn patterns(arena: &mut Arena, metrics: &[Vec<Vec<Expr>>; 2]) -> [Axes; 2] {
+    metrics.each_ref().map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))))
+}
+
 /// Symbols for the entries that can differ from zero.
 fn to_prepare(
     arena: &mut Arena,
-    [space, body]: &[Vec<Vec<Expr>>; 2],
+    metrics: &[Vec<Vec<Expr>>; 2],
     (term, frame): (&Term, Frame),
     given: &Square<Polynomial>,
     rebased: &mut Vec<Rebased>,
 ) -> Matrix {
-    let [space, body] = [space, body].map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))));
+    let [space, body] = patterns(arena, metrics);
     let one = |entry: &Polynomial| {
         if entry.is_zero() { Polynomial::zero() } else { Polynomial::constant(Rational::ONE) }
     };

@@ -6,7 +6,7 @@ use crate::algebra::ring::{Square, outer, pairs, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
-use crate::mechanics::metric::Definitions;
+use crate::mechanics::metric::{Definitions, share};
 use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::Potential;
@@ -131,11 +131,7 @@ fn on_axes(
 impl Draft<'_> {
     /// Shares quantities that are not shared yet.
     pub(super) fn share(&mut self, definitions: Definitions) {
-        for (symbol, definition) in definitions {
-            if self.load.shared.iter().all(|(known, _)| *known != symbol) {
-                self.load.shared.push((symbol, definition));
-            }
-        }
+        share(&mut self.load.shared, definitions);
     }
 
     /// A coefficient of a force: named where it moves, as it stands where it is of parameters alone.
