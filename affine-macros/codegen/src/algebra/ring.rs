@@ -121,11 +121,21 @@ pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
     above_diagonal(m.len()).map(|(a, b)| combined(&m[a][b], &m[b][a], &Rational::MINUS_ONE)).collect()
 }
 
+/// `tr m`.
+pub fn trace<R: Ring>(m: &Square<R>) -> R {
+    let mut sum = R::zero();
+    (0..m.len()).for_each(|a| sum.plus(&m[a][a], &Rational::ONE));
+    sum
+}
+
+/// `tr(a b)`.
+pub fn trace_of_product<R: Ring>(a: &Square<R>, b: &Square<R>) -> R {
+    dot(pairs(a.len()).map(|(i, j)| (&a[i][j], &b[j][i])))
+}
+
 /// `m - (tr m / n) 1`.
 pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
-    let mut trace = R::zero();
-    (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
-    let nth = -&Rational::one_over(m.len());
+    let (trace, nth) = (trace(m), -&Rational::one_over(m.len()));
     table(m.len(), |i, j| {
         let mut value = m[i][j].clone();
         if i == j {

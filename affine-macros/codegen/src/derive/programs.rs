@@ -5,7 +5,7 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
-use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::potential::Potential;
@@ -78,11 +78,12 @@ fn shortest(
 ) -> Equations {
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
+    let momenta: Vec<Expr> = chart.independent_momenta().into_iter().map(|z| chart.symbol(z)).collect();
     let groups = [
         (Quantity::Position, arena.symbols_of(&chart.x)),
         (Quantity::Placement, arena.symbols_of(&chart.phi.0.concat())),
         (linear, arena.symbols_of(&chart.p)),
-        (chart.momentum.quantity(), arena.symbols_of(&independent_momenta(chart))),
+        (chart.momentum.quantity(), arena.symbols_of(&momenta)),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
@@ -108,11 +109,6 @@ pub(super) fn shortest_program(
         .unwrap_or_else(|| (Program::default(), coefficients.clone()));
     *coefficients = chosen;
     program
-}
-
-fn independent_momenta(chart: &Chart) -> Vec<Expr> {
-    let momenta = chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..)));
-    momenta.map(|z| chart.symbol(z)).collect()
 }
 
 /// Entries of the affine momentum that a constraint makes linear in others.

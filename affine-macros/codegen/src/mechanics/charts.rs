@@ -77,6 +77,13 @@ pub enum Coordinate {
     Carried(Expr),
 }
 
+impl Coordinate {
+    /// Is it a component of a momentum?
+    pub fn is_momentum(self) -> bool {
+        matches!(self, Self::P(_) | Self::M(..))
+    }
+}
+
 impl Momentum {
     /// The affine spin of a frame.
     pub fn of(frame: Frame) -> Self {
@@ -176,6 +183,13 @@ impl Chart {
         let mut all = self.coordinates();
         all.retain(|z| listed(&dependent)(self.symbol(*z)).is_none());
         all
+    }
+
+    /// The entries of the affine momentum among them.
+    pub fn independent_momenta(&self) -> Vec<Coordinate> {
+        let mut momenta = self.independent();
+        momenta.retain(|z| matches!(z, Coordinate::M(..)));
+        momenta
     }
 
     /// All coordinates, group after group.

@@ -5,7 +5,7 @@
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, dot, product, sum, table, times, trace_of_product, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -164,12 +164,12 @@ impl Custom {
                 let phi = chart.placement();
                 if home == chart.frame() {
                     let own = chart.velocity(shared.arena).atoms();
-                    power = pair(&force, &own);
+                    power = trace_of_product(&force, &own);
                     affine = force;
                 } else {
                     let push = transport::momentum(home, &force, &shared.inverse(&phi));
                     let push = shared.matrix(Quantity::FieldPush.at([self.place]), &push);
-                    power = pair(&push, &phi_dot);
+                    power = trace_of_product(&push, &phi_dot);
                     affine = transport::momentum(chart.frame(), &push, &phi);
                 }
                 (name, Group::Matrix(symbols.0))
@@ -324,9 +324,4 @@ fn placed(chart: &Chart) -> Vec<Group<Polynomial>> {
 
 fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {
     if vector.is_empty() { vec![Polynomial::zero(); n] } else { vector }
-}
-
-/// `tr(force velocity)`.
-fn pair(force: &Square<Polynomial>, velocity: &Square<Polynomial>) -> Polynomial {
-    dot(pairs(force.len()).map(|(a, b)| (&force[a][b], &velocity[b][a])))
 }

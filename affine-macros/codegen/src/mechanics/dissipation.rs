@@ -6,7 +6,7 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, dot, product, sum, table, times, trace_of_product, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -130,7 +130,7 @@ impl Dissipation {
             };
             let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
             let drag = shared.matrix(drag(frame), &part.force(&velocity));
-            power = power.add(&dot(pairs(n).map(|(a, b)| (&drag[a][b], &velocity[b][a]))));
+            power = power.add(&trace_of_product(&drag, &velocity));
             match frame {
                 _ if at_home => force = sum(&force, &drag),
                 Frame::Flat => push = sum(&push, &drag),

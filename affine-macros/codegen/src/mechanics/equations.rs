@@ -51,8 +51,7 @@ pub enum Form {
 impl Load {
     /// The force on a coordinate.
     pub(super) fn force(&self, z: Coordinate) -> Polynomial {
-        let found = self.forces.iter().find(|(known, _)| *known == z);
-        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
+        listed(&self.forces)(z).unwrap_or_else(Polynomial::zero)
     }
 
     /// What it moves by itself, of the coordinates that determine the others.
@@ -168,7 +167,7 @@ impl System {
     }
 
     /// Definitions, arguments of calls, rates.
-    fn polynomials(&self) -> impl Iterator<Item = &Polynomial> {
+    pub(super) fn polynomials(&self) -> impl Iterator<Item = &Polynomial> {
         let shared = self.shared.iter().map(|(_, p)| p);
         shared
             .chain(self.kernels.iter().flat_map(Kernel::inputs))

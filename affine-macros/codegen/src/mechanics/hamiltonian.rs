@@ -1,6 +1,8 @@
 //! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
 
-use crate::algebra::ring::{above_diagonal, dot, pairs, product, table, times, transpose};
+use crate::algebra::ring::{
+    Square, above_diagonal, pairs, product, table, times, trace, trace_of_product, transpose,
+};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -166,33 +168,27 @@ impl Isotropic {
     }
 
     /// `H` of an affine spin.
-    pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+    pub fn energy(&self, spin: &Square<Polynomial>) -> Polynomial {
         self.casimirs(spin).add(&self.skew_norm(spin))
     }
 
     /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
-    pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let c1: Polynomial = spin.iter().enumerate().map(|(a, row)| &row[a]).sum();
-        let c2 = dot(pairs(spin.len()).map(|(a, b)| (&spin[a][b], &spin[b][a])));
+    pub fn casimirs(&self, spin: &Square<Polynomial>) -> Polynomial {
+        let (c1, c2) = (trace(spin), trace_of_product(spin, spin));
         let mut sum = c2.mul(&self.casimir2).add(&c1.mul(&c1).mul(&self.casimir1_squared));
         sum = sum.scaled(&Rational::HALF);
         if !self.casimir3.is_zero() {
-            sum.add_product(&cubed_trace(spin), &self.casimir3, &Rational::THIRD);
+            let c3 = trace_of_product(&product(spin, spin), spin);
+            sum.add_product(&c3, &self.casimir3, &Rational::THIRD);
         }
         sum
     }
 
     /// `|W|^2/(2 mu)` of an affine spin.
-    pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+    pub fn skew_norm(&self, spin: &Square<Polynomial>) -> Polynomial {
         let squares = above_diagonal(spin.len()).map(|(a, b)| spin[a][b].sub(&spin[b][a])).map(|w| w.mul(&w));
         squares.sum::<Polynomial>().mul(&self.skew).scaled(&Rational::HALF)
     }
-}
-
-/// `tr X^3`.
-fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
-    let square = product(&spin.to_vec(), &spin.to_vec());
-    dot(pairs(spin.len()).map(|(a, b)| (&square[a][b], &spin[b][a])))
 }
 
 /// `p_hat = phi^T p`.

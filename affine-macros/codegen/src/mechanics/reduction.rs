@@ -151,13 +151,13 @@ impl Reduction {
         let taken = |(carried, mut system)| {
             let conserved = Conserved::of(chart, &mut system, momenta_may_rest);
             let turn = Turn::of(chart, &conserved).filter(|_| wanted.rotations);
-            let turned = turn.as_ref().map(|turn| turn.taken(&system));
-            system = turned.unwrap_or(system).tidied(arena);
-            let conserved = match momenta_may_rest {
-                true => conserved.with_components(&mut system),
-                false => conserved,
-            };
-            Self { carried, conserved, turn, system, ..self.clone() }
+            let mut way = Self { carried, conserved, turn, ..self.clone() };
+            let taken = system.substitute(&way.gauge());
+            way.system = taken.tidied(arena);
+            if momenta_may_rest {
+                way.conserved = way.conserved.with_components(&mut way.system);
+            }
+            way
         };
         ways.map(taken).collect()
     }

@@ -2,6 +2,7 @@
 
 use crate::algebra::passage::DilatationalMotion;
 use crate::algebra::polynomial::add_to;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -91,8 +92,8 @@ impl Slope {
             let binding = match *key {
                 (1, 0) => binding(arena, coefficient, None),
                 (0, 1..) => {
-                    let opposite = powers.iter().find(|(other, _)| *other == (0, -key.1));
-                    opposite.map_or_else(Polynomial::zero, |(_, c)| binding(arena, coefficient, Some(c)))
+                    let opposite = listed(&powers)((0, -key.1));
+                    opposite.map_or_else(Polynomial::zero, |c| binding(arena, coefficient, Some(&c)))
                 }
                 _ => continue,
             };

@@ -9,6 +9,8 @@
 //!
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
+use std::cmp::Ordering;
+
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
 use crate::algebra::ring::{pairs, table};
 use crate::algebra::substitute::listed;
@@ -142,12 +144,12 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     let half = Rational::HALF;
     let mean: Polynomial = (0..n).map(|a| force(a, a).scaled(&nth)).sum();
     for (a, b) in pairs(n) {
-        let mut rate = match (a < b, a == b) {
-            (true, _) => force(a, b).add(&force(b, a)).scaled(&half),
-            (_, true) => force(a, a).sub(&mean),
-            _ => force(b, a).sub(&force(a, b)).scaled(&half),
+        let rate = match a.cmp(&b) {
+            Ordering::Less => force(a, b).add(&force(b, a)).scaled(&half),
+            Ordering::Equal => force(a, a).sub(&mean),
+            Ordering::Greater => force(b, a).sub(&force(a, b)).scaled(&half),
         };
-        rate = rate.mul(&casimirs.casimir2);
+        let rate = rate.mul(&casimirs.casimir2);
         if (a, b) != (n - 1, n - 1) {
             system.rates.push((Coordinate::M(a, b), arena.symbol(part(a, b)), rate));
         }
@@ -156,9 +158,8 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     let depends = |p: &Polynomial| {
         p.any_symbol(arena, &mut |s| arena.quantity(s).is_some_and(|quantity| UNDEFORMED.contains(&quantity)))
     };
-    let free =
-        !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
-    free.then_some(system)
+    let depends = system.polynomials().any(depends);
+    (!depends).then_some(system)
 }
 
 /// What is a constant at `det phi = 1`.
@@ -197,17 +198,13 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
 
 /// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
 fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (a, b) in pairs(n) {
-        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(arena.symbol(part(a, b)));
-        rows[a][b] = match (a < b, a == b) {
-            (true, _) => symbol(arena, a, b).add(&symbol(arena, b, a)),
-            (_, true) if a + 1 < n => symbol(arena, a, a),
-            (_, true) => (0..a).map(|c| symbol(arena, c, c).neg()).sum(),
-            _ => symbol(arena, b, a).sub(&symbol(arena, a, b)),
-        };
-    }
-    rows
+    let mut symbol = |a, b| Polynomial::atom(arena.symbol(part(a, b)));
+    table(n, |a, b| match a.cmp(&b) {
+        Ordering::Less => symbol(a, b).add(&symbol(b, a)),
+        Ordering::Equal if a + 1 < n => symbol(a, a),
+        Ordering::Equal => (0..a).map(|c| symbol(c, c).neg()).sum(),
+        Ordering::Greater => symbol(b, a).sub(&symbol(a, b)),
+    })
 }
 
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.

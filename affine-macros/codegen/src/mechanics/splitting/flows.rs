@@ -1,6 +1,6 @@
 //! Flows in closed form, and which of them a system of equations has.
 
-use crate::algebra::ring::pairs;
+use crate::algebra::ring::{pairs, table};
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -124,11 +124,8 @@ pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polyn
         let ((i, a), (j, b)) = (place(k, to), place(k, from));
         placement(i, a).1.derivative(placement(j, b).0)
     };
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (r, c) in pairs(n) {
-        // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
-        rows[r][c] = if right { entry(c, r, 0) } else { entry(r, c, 0) };
-    }
+    // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
+    let rows = table(n, |r, c| if right { entry(c, r, 0) } else { entry(r, c, 0) });
     for (i, a) in pairs(n) {
         let mut product = Polynomial::zero();
         for k in 0..n {
@@ -155,7 +152,7 @@ pub(super) fn turns_along(
     right: bool,
 ) -> bool {
     let dependent = chart.dependent();
-    chart.independent().into_iter().all(|z| {
+    chart.independent_momenta().into_iter().all(|z| {
         let Coordinate::M(a, b) = z else { return true };
         // A component that keeps still must keep still in the commutator as well.
         commutator(chart, generator, right, a, b).substitute(&listed(&dependent)) == system.rate(z)

@@ -100,7 +100,7 @@ fn is_linear(block: &Rates, momenta: &[Expr], matrix: &[Vec<Polynomial>]) -> boo
         for (entry, momentum) in row.iter().zip(momenta) {
             rest.add_product(entry, &Polynomial::atom(*momentum), &Rational::ONE);
         }
-        matches!(z, Coordinate::P(_) | Coordinate::M(..))
+        z.is_momentum()
             && rest.is_zero()
             && row.iter().all(|entry| !entry.mentions(|atom| momenta.contains(&atom)))
     })

@@ -12,7 +12,6 @@
 //! in the closed form of [`turns`](super::turns). Squares whose momenta commute make one piece.
 
 use crate::algebra::lagrange::completed;
-use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -63,15 +62,13 @@ impl Squares {
     /// The squares of a quadratic energy of a chart's affine spin; `None` where it is degenerate.
     pub(super) fn of(arena: &mut Arena, chart: &Chart, energy: &Polynomial) -> Option<Self> {
         let energy = chart.reduced(energy);
-        let momenta: Vec<Coordinate> =
-            chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..))).collect();
+        let momenta = chart.independent_momenta();
         let symbols: Vec<Expr> = momenta.iter().map(|z| chart.symbol(*z)).collect();
         let form = energy.hessian(&symbols);
         let mut squares = Self::default();
         for block in blocks(&form, &entries(symbols.len())) {
             let of_block = squares.of_block(arena, &block)?;
-            let places = block.basis.iter().filter_map(|vector| vector.entries.first());
-            let places: Vec<usize> = places.map(|(k, _)| *k).collect();
+            let places = block.places();
             let atoms: Vec<Expr> = places.iter().map(|k| symbols[*k]).collect();
             for (k, (weight, row)) in of_block.into_iter().enumerate() {
                 let (mut form, mut on_all) = (Polynomial::zero(), Polynomial::zero());
@@ -129,25 +126,21 @@ impl Principal {
 /// An entry of the affine spin, under a constraint that of its projection.
 fn on_all_momenta(chart: &Chart, entry: Coordinate) -> Polynomial {
     match (chart.confined, entry) {
-        (Some(group), Coordinate::M(a, b)) => {
-            group.projected(&table(chart.dim, |c, d| Polynomial::atom(chart.m.0[c][d])))[a][b].clone()
-        }
+        (Some(group), Coordinate::M(a, b)) => group.projected(&chart.m.atoms())[a][b].clone(),
         _ => Polynomial::atom(chart.symbol(entry)),
     }
 }
 
 impl Square {
-    fn summand(&self) -> Option<Summand> {
-        let half = Rational::HALF;
-        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
-        Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
+    fn summand(&self) -> Summand {
+        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&Rational::HALF);
+        Summand { name: self.name.clone(), energy: Some(energy), system: System::default() }
     }
 }
 
 /// The square as text: the `k`-th of a block of momenta where only the fields' values tell which.
 fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> String {
-    let known = |atom: Expr| block.contains(&atom);
-    if form.mentions(|atom| !known(atom)) {
+    if form.mentions(|atom| !block.contains(&atom)) {
         let names: Vec<String> = block.iter().map(|atom| arena.symbol_name(*atom)).collect();
         return format!("square {k} of {}", names.join(", "));
     }
@@ -169,6 +162,5 @@ pub(super) fn piece(
     });
     let turns: Vec<Turn> = turns.collect::<Option<_>>()?;
     let flows = turns::flows(arena, reduction, &turns)?;
-    let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
-    Some((summands, flows))
+    Some((group.iter().map(Square::summand).collect(), flows))
 }

@@ -16,6 +16,7 @@
 //! from outside that is known for all times.
 
 use crate::algebra::polynomial::add_to;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::OnAxes;
@@ -152,8 +153,7 @@ fn exact_flow(arena: &Arena, name: String, rates: &[(Expr, Polynomial)]) -> Opti
             piece.shifts.push((*z, rate.clone()));
         } else if !turned.contains(z) {
             let (angular, y) = proportional(rate, &moves)?;
-            let (_, back) = rates.iter().find(|(symbol, _)| *symbol == y)?;
-            if !still(&angular) || *back != angular.mul(&Polynomial::atom(*z)).neg() {
+            if !still(&angular) || listed(rates)(y)? != angular.mul(&Polynomial::atom(*z)).neg() {
                 return None;
             }
             turned.extend([*z, y]);
