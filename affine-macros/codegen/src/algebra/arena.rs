@@ -94,8 +94,9 @@ impl Arena {
         symbols.map(|symbol| self.symbol(symbol))
     }
 
-    /// The components 1 to `n` of a quantity.
-    pub fn components(&mut self, of: Quantity, n: usize) -> Vec<Expr> {
+    /// The components 1 to `n` of a symbol.
+    pub fn components(&mut self, of: impl Into<Symbol>, n: usize) -> Vec<Expr> {
+        let of = of.into();
         (1..=n).map(|k| self.symbol(of.at([k]))).collect()
     }
 

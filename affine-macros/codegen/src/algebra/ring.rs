@@ -67,6 +67,11 @@ pub fn table<R>(n: usize, mut entry: impl FnMut(usize, usize) -> R) -> Square<R>
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
+/// `value 1`.
+pub fn scalar<R: Ring>(n: usize, value: &R) -> Square<R> {
+    table(n, |i, j| if i == j { value.clone() } else { R::zero() })
+}
+
 /// All places of a square matrix, row after row.
 pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))

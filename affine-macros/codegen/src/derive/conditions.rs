@@ -2,7 +2,7 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::{Square, determinant};
-use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::form::Positive;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::metric::Definitions;
@@ -65,9 +65,7 @@ fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
     match inertia {
         Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
         Coefficient::Matrix(j) => {
-            let mut normal_form = |e: &Expr| Polynomial::normal_form(arena, *e);
-            let j: Vec<Vec<Polynomial>> =
-                j.0.iter().map(|row| row.iter().map(&mut normal_form).collect()).collect();
+            let j = j.normal_form(arena);
             let leading =
                 |k: usize| -> Square<Polynomial> { j[..k].iter().map(|row| row[..k].to_vec()).collect() };
             let larger = (2..=j.len()).map(|k| determinant(&leading(k)));

@@ -209,11 +209,7 @@ fn columns(
     let column = |unit: usize| {
         let mut momenta = vec![Polynomial::zero(); size];
         momenta[unit] = Polynomial::constant(Rational::ONE);
-        let column = first + unit;
-        let solution: Vec<Expr> =
-            (1..=size).map(|row| arena.symbol(Quantity::InverseColumn.at([row, column]))).collect();
-        factorisation.solve(arena, Factorised::Column(column), &momenta, &solution, shared);
-        solution.into_iter().map(Polynomial::atom).collect()
+        Polynomial::vector(&factorisation.column(arena, first + unit, &momenta, shared))
     };
     Some((0..size).map(column).collect())
 }

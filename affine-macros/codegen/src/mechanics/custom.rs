@@ -5,7 +5,7 @@
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, dot, product, sum, table, times, trace_of_product, transpose};
+use crate::algebra::ring::{self, Square, dot, product, sum, table, times, trace_of_product, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -294,7 +294,7 @@ impl Custom {
     }
 
     fn vector(&self, arena: &mut Arena, n: usize) -> Vec<Expr> {
-        (1..=n).map(|i| arena.symbol(Quantity::FieldPull.at([self.place, i]))).collect()
+        arena.components(Quantity::FieldPull.at([self.place]), n)
     }
 
     fn matrix(&self, arena: &mut Arena, of: Quantity, n: usize) -> Matrix {
@@ -306,10 +306,8 @@ impl Custom {
 fn isotropic(phi: &Square<Residue>, any: &dyn Fn(usize) -> Residue) -> Square<Residue> {
     let (n, green) = (phi.len(), product(&transpose(phi), phi));
     // Horner's scheme.
-    (0..n).fold(table(n, |_, _| Residue::ZERO), |value, k| {
-        let coefficient = any(n + k);
-        let constant = table(n, |a, b| if a == b { coefficient } else { Residue::ZERO });
-        sum(&product(&value, &green), &constant)
+    (0..n).fold(ring::scalar(n, &Residue::ZERO), |value, k| {
+        sum(&product(&value, &green), &ring::scalar(n, &any(n + k)))
     })
 }
 

@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashSet;
 
+use crate::algebra::definitions::used;
 use crate::algebra::ring::table;
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
@@ -187,13 +188,6 @@ impl System {
 
     /// Every symbol that a definition, a call or a rate uses.
     fn symbols(&self, arena: &Arena) -> FxHashSet<Expr> {
-        let mut found = FxHashSet::default();
-        for polynomial in self.polynomials() {
-            polynomial.any_symbol(arena, &mut |symbol| {
-                found.insert(symbol);
-                false
-            });
-        }
-        found
+        used(arena, self.polynomials())
     }
 }

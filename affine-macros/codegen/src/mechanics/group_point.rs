@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, adjugate, determinant, product, table};
+use crate::algebra::ring::{Ring, Square, adjugate, determinant, difference, product, scalar, sum, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -85,7 +85,7 @@ impl GroupPoint {
 
     /// A point at `phi = 1`, without other relations.
     pub(super) fn undeformed(arena: &Arena, chart: &Chart) -> Self {
-        let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
+        let one = scalar(chart.dim, &Residue::number(&Rational::ONE));
         let entries = chart.phi.0.concat().into_iter().zip(one.concat());
         let named = entries.filter_map(|(symbol, value)| Some((arena.as_symbol(symbol)?.clone(), value)));
         Self { seed: 0, values: named.collect(), known: RefCell::default() }
@@ -169,12 +169,6 @@ fn unimodular(m: &Square<Residue>) -> Square<Residue> {
 
 /// Cayley's rotation `(1 - W)^-1 (1 + W)` of a skew `W`.
 fn cayley(w: &Square<Residue>) -> Square<Residue> {
-    let unit_plus = |sign: &Rational| {
-        table(w.len(), |i, j| {
-            let mut entry = Residue::from_rational(&Rational::from(i64::from(i == j)));
-            entry.plus(&w[i][j], sign);
-            entry
-        })
-    };
-    product(&inverse(&unit_plus(&Rational::MINUS_ONE)), &unit_plus(&Rational::ONE))
+    let one = scalar(w.len(), &Residue::number(&Rational::ONE));
+    product(&inverse(&difference(&one, w)), &sum(&one, w))
 }

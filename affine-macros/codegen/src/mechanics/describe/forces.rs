@@ -4,7 +4,7 @@ use crate::algebra::{Arena, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::custom::{By, Custom, On, Role};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Notation, field_index, letters, product, rate, slope, trace};
+use crate::mechanics::notation::{Notation, field_index, letters, placement, product, rate, slope, trace};
 use crate::mechanics::term::Frame;
 use crate::symbol::Quantity;
 
@@ -111,10 +111,6 @@ fn symbol(custom: &Custom) -> Sentence {
         Role::Force { on: On::Centre, .. } => letters::FORCE,
     };
     Sentence::OfField(letter, field_index(&custom.name))
-}
-
-fn placement() -> Sentence {
-    letters::PLACEMENT.into()
 }
 
 /// The force on the linear momentum of a chart that one on `p` is: on `p_hat` pulled back.

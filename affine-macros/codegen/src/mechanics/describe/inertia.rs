@@ -1,7 +1,7 @@
 //! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
 
 use super::{Notation, Sentence, momentum, velocity};
-use crate::algebra::ring::pairs;
+use crate::algebra::ring::{self, pairs, table};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -55,16 +55,14 @@ pub(super) fn scalar_inverse(h: &Hamiltonian) -> Option<Polynomial> {
         return None;
     }
     let inverse = inverse_on_rows(h)?;
-    let scalar = inverse[0][0].clone();
-    let fits = |k: usize, l: usize| if k == l { inverse[k][l] == scalar } else { inverse[k][l].is_zero() };
-    (0..h.dim).all(|k| (0..h.dim).all(|l| fits(k, l))).then_some(scalar)
+    (inverse == ring::scalar(h.dim, &inverse[0][0])).then(|| inverse[0][0].clone())
 }
 
 /// `dO_k/dX_l` of entries row-major, `l` transposed.
 fn whole_inverse(h: &Hamiltonian) -> Vec<Vec<Polynomial>> {
     let n = h.dim;
     let entry = |k: usize, l: usize| h.velocity[k / n][k % n].derivative(h.momentum.0[l % n][l / n]);
-    (0..n * n).map(|k| (0..n * n).map(|l| entry(k, l)).collect()).collect()
+    table(n * n, entry)
 }
 
 /// `J^-1` of `O = X^T J^-1`, where every row of `O` has the same.
@@ -76,7 +74,7 @@ fn inverse_on_rows(h: &Hamiltonian) -> Option<Vec<Vec<Polynomial>>> {
         true => whole[k][l] == inverse[k % n][l % n],
         false => whole[k][l].is_zero(),
     };
-    (0..n * n).all(|k| (0..n * n).all(|l| fits(k, l))).then_some(inverse)
+    pairs(n * n).all(|(k, l)| fits(k, l)).then_some(inverse)
 }
 
 /// Is it the inverse of the matrix: its entries by name, or numbers and reciprocals whose product with the matrix is 1?

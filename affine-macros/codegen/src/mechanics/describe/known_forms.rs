@@ -6,7 +6,7 @@ use crate::algebra::ring::{self, Square, difference, outer, times, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::notation::{commutator, letters, product, slope};
+use crate::mechanics::notation::{commutator, letters, placement, product, slope};
 use crate::mechanics::term::Frame;
 
 /// A matrix or vector formula with its components.
@@ -81,7 +81,6 @@ fn translation(
         };
     let one = Polynomial::constant(Rational::ONE);
     let minus = inverse_mass.neg();
-    let placement = || Sentence::from(letters::PLACEMENT);
     let spatial = || Sentence::from(letters::LINEAR_MOMENTUM);
     // p_hat, or phi^T p where p is the momentum of the chart.
     let pulled = || if comoving { letters::COMOVING_LINEAR_MOMENTUM.into() } else { pulled_back_momentum() };

@@ -59,11 +59,6 @@ fn changed(term: &Term, frame: Frame, axes: [&Axes; 2], given: &Square<Polynomia
     product(&product(&matrix, given), &transpose(&matrix))
 }
 
-fn polynomials(arena: &mut Arena, matrix: &Matrix) -> Square<Polynomial> {
-    let mut entry = |e: &Expr| Polynomial::normal_form(arena, *e);
-    matrix.0.iter().map(|row| row.iter().map(&mut entry).collect()).collect()
-}
-
 /// Terms with matrices, and the frames of their velocities.
 fn matrices(terms: &[Term]) -> impl Iterator<Item = (usize, &Term, &Matrix, Frame)> {
     terms.iter().enumerate().filter_map(|(place, term)| match &term.value {
@@ -78,10 +73,10 @@ impl Metrics {
     pub fn orthonormal(&self, arena: &mut Arena, terms: &[Term], rebased: &mut Vec<Rebased>) -> Vec<Term> {
         let mut changed = terms.to_vec();
         for (place, term, matrix, frame) in matrices(terms) {
-            let given = polynomials(arena, matrix);
+            let given = matrix.normal_form(arena);
             let value = match self {
                 Self::Known(bases) => bases.normalised(arena, term, frame, &given),
-                Self::Given(metrics) => to_prepare(arena, metrics, (term, frame), &given, rebased),
+                Self::Given(metrics) => form_to_prepare(arena, metrics, (term, frame), &given, rebased),
             };
             changed[place].value = Coefficient::Matrix(value);
         }
@@ -110,26 +105,37 @@ impl Metrics {
             Self::Given(metrics) => patterns(arena, metrics),
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
-            let number = rebased.len() + 1;
-            let entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
-                true => arena.constant(Rational::ZERO),
-                false => arena.symbol(Symbol::Prepared(number, i + 1, j + 1)),
-            };
-            let n = pattern.len();
-            let symbols = table(n, entry);
-            rebased.push(Rebased { number, source });
-            Matrix(symbols)
+            to_prepare(arena, source, (pattern.len(), &|i, j| pattern[i][j].is_zero()), rebased)
         })
     }
 }
 
 /// Where the factors of metrics that depend on fields can differ from zero.
 fn patterns(arena: &mut Arena, metrics: &[Vec<Vec<Expr>>; 2]) -> [Axes; 2] {
-    metrics.each_ref().map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))))
+    metrics.each_ref().map(|rows| Axes::pattern(&Matrix(rows.clone()).normal_form(arena)))
 }
 
-/// Symbols for the entries that can differ from zero.
+/// The matrix that `prepare()` makes from `source`: symbols for the entries that do not vanish.
 fn to_prepare(
+    arena: &mut Arena,
+    source: Source,
+    (size, vanishes): (usize, &dyn Fn(usize, usize) -> bool),
+    rebased: &mut Vec<Rebased>,
+) -> Matrix {
+    let number = rebased.len() + 1;
+    let is_symmetric = matches!(source, Source::Form(..));
+    rebased.push(Rebased { number, source });
+    Matrix(table(size, |i, j| {
+        let (row, column) = if is_symmetric { (i.min(j), i.max(j)) } else { (i, j) };
+        match vanishes(i, j) {
+            true => arena.constant(Rational::ZERO),
+            false => arena.symbol(Symbol::Prepared(number, row + 1, column + 1)),
+        }
+    }))
+}
+
+/// The same of a form, whose entries can differ from zero where they do so in some bases.
+fn form_to_prepare(
     arena: &mut Arena,
     metrics: &[Vec<Vec<Expr>>; 2],
     (term, frame): (&Term, Frame),
@@ -142,15 +148,9 @@ fn to_prepare(
     };
     let ones: Square<Polynomial> = given.iter().map(|row| row.iter().map(one).collect()).collect();
     let filled = changed(term, frame, [&space, &body], &ones);
-    let number = rebased.len() + 1;
     let entries = given.iter().flatten().map(|entry| entry.expression(arena)).collect();
-    let symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
-        true => arena.constant(Rational::ZERO),
-        false => arena.symbol(Symbol::Prepared(number, r.min(s) + 1, r.max(s) + 1)),
-    };
-    let symbols = table(given.len(), symbol);
-    rebased.push(Rebased { number, source: Source::Form(term.kind, entries) });
-    Matrix(symbols)
+    let source = Source::Form(term.kind, entries);
+    to_prepare(arena, source, (given.len(), &|i, j| filled[i][j].is_zero()), rebased)
 }
 
 impl Bases {
@@ -232,7 +232,7 @@ impl Bases {
         let [_, right] = sides(frame, self.axes());
         let value = match &term.value {
             Coefficient::Matrix(matrix) => {
-                let given = polynomials(arena, matrix);
+                let given = matrix.normal_form(arena);
                 let rational = changed(term, frame, self.axes(), &given);
                 let rows = rational.iter().map(|row| row.iter().map(|e| e.expression(arena)).collect());
                 Coefficient::Matrix(Matrix(rows.collect()))

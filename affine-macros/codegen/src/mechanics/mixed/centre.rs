@@ -3,7 +3,7 @@
 //! With `v_hat = phi^-1 x_dot` and `p_hat = phi^T p = (m_body 1 + m_space G) v_hat` the Hamiltonian is
 //! `1/2 p_hat^T (m_body 1 + m_space G)^-1 p_hat`.
 
-use crate::algebra::ring::{Square, table, times, transpose};
+use crate::algebra::ring::{Square, add_multiple, scalar, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
@@ -73,11 +73,9 @@ impl Masses {
     fn matrix(&self, arena: &mut Arena) -> Square<Polynomial> {
         let green = green(arena, self.dim);
         let [body, space] = self.of_body_and_space(arena);
-        table(self.dim, |a, b| {
-            let mut entry = if a == b { body.clone() } else { Polynomial::zero() };
-            entry.add_product(&space, &green[a][b], &Rational::ONE);
-            entry
-        })
+        let mut matrix = scalar(self.dim, &body);
+        add_multiple(&mut matrix, &space, &green);
+        matrix
     }
 
     /// Its factorisation, with the definitions that lead there. `None` where it is singular at every placement.

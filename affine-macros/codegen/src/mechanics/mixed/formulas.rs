@@ -5,7 +5,7 @@ use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Notation, Sentence, Sum, Summand, projection};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Letter, half, letters, product, rate, slope, trace};
+use crate::mechanics::notation::{half, letters, placement, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
 
@@ -46,14 +46,6 @@ impl Laws {
     }
 }
 
-fn letter(letter: Letter) -> Sentence {
-    letter.into()
-}
-
-fn placement() -> Sentence {
-    letter(letters::PLACEMENT)
-}
-
 /// `H` through the velocities.
 pub fn hamiltonian(
     arena: &mut Arena,
@@ -65,7 +57,7 @@ pub fn hamiltonian(
 ) -> Sentence {
     let mut sum = Sum::new([Summand::plus(internal)]);
     if !masses.are_none() {
-        let power = product([letter(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
+        let power = product([Sentence::from(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
         sum.push(Summand::plus(half(arena, power)));
     }
     if let Some(u) = potential {
@@ -78,8 +70,8 @@ pub fn hamiltonian(
 /// The kinetic energy of the internal motion, through velocity and momentum.
 pub fn internal_energy(arena: &mut Arena, confined: bool) -> Sentence {
     let factors = match confined {
-        false => [letter(letters::CANONICAL_MOMENTUM), rate(letters::PLACEMENT)],
-        true => [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY].map(letter),
+        false => [Sentence::from(letters::CANONICAL_MOMENTUM), rate(letters::PLACEMENT)],
+        true => [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY].map(Sentence::from),
     };
     half(arena, trace(product(factors)))
 }
@@ -123,7 +115,7 @@ pub fn confined_equations(
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
     let [mass, _] = masses.of_body_and_space(arena);
-    let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
+    let v = || Sentence::from(letters::COMOVING_CENTRE_VELOCITY);
     force.add(arena, notation, &mass.neg(), product([v(), v().transposed()]));
     force.extend(potential.map(|_| Summand::plus(letters::COMOVING_AFFINE_FORCE)));
     force.extend(names.on_affine.iter().cloned());
@@ -143,7 +135,7 @@ pub fn confined_equations(
 
 /// The velocity of the centre of mass; `None` where it does not move.
 fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Sentence> {
-    let p = || letter(letters::LINEAR_MOMENTUM);
+    let p = || Sentence::from(letters::LINEAR_MOMENTUM);
     let pulled = || [placement().transposed(), p()];
     let mut sum = Sum::default();
     let (mass, of) = match (masses.body, masses.space) {

@@ -93,11 +93,7 @@ impl Internal {
                     if k % n == unit % n { phi[unit / n][k / n].clone() } else { Polynomial::zero() }
                 };
                 let momenta: Vec<Polynomial> = basis.iter().map(|e| along(e, momentum)).collect();
-                let column = first + unit;
-                let speeds: Vec<Expr> = (1..=basis.len())
-                    .map(|row| arena.symbol(Quantity::InverseColumn.at([row, column])))
-                    .collect();
-                self.factorisation.solve(arena, Factorised::Column(column), &momenta, &speeds, &mut shared);
+                let speeds = self.factorisation.column(arena, first + unit, &momenta, &mut shared);
                 let velocity = composed(&basis, &speeds, n * n);
                 let velocity = table(n, |a, b| velocity[n * a + b].clone());
                 product(&phi, &velocity).concat()
@@ -184,7 +180,7 @@ impl Solved {
         let velocity = Matrix::symbols(arena, chart.frame().velocity(), n).0.concat();
         let speeds: Vec<Expr> = match chart.confined {
             None => velocity.clone(),
-            Some(_) => (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect(),
+            Some(_) => arena.components(Quantity::Speed, basis.len()),
         };
         factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
         let entries = velocity.into_iter().zip(composed(&basis, &speeds, n * n));

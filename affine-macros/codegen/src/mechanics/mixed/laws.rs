@@ -9,7 +9,7 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::Load;
 use crate::mechanics::group_point::{GroupPoint, inverse};
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, product, slope};
+use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, placement, product, slope};
 use crate::mechanics::term::Frame;
 use crate::mechanics::transport;
 
@@ -30,12 +30,8 @@ pub(super) struct Law {
 /// What the momentum of a part is.
 type Own = fn() -> Sentence;
 
-fn letter(letter: Letter) -> Sentence {
-    letter.into()
-}
-
 fn inverse_placement() -> Sentence {
-    letter(letters::PLACEMENT).inverse()
+    placement().inverse()
 }
 
 /// `(dT/dO)^T`
@@ -66,9 +62,9 @@ struct Placed {
 
 const BODY: Law = Law {
     own: Some((letters::COMOVING_AFFINE_SPIN, in_the_body)),
-    momentum: || product([letter(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
+    momentum: || product([Sentence::from(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
     rate: Some(|| {
-        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(letter);
+        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(Sentence::from);
         Summand::minus(product([o, x, inverse_placement()]))
     }),
     value: |at| {
@@ -79,9 +75,9 @@ const BODY: Law = Law {
 
 const SPACE: Law = Law {
     own: Some((letters::AFFINE_SPIN, in_space)),
-    momentum: || product([inverse_placement(), letter(letters::AFFINE_SPIN)]),
+    momentum: || product([inverse_placement(), Sentence::from(letters::AFFINE_SPIN)]),
     rate: Some(|| {
-        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(letter);
+        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(Sentence::from);
         Summand::minus(product([inverse_placement(), x, o]))
     }),
     value: |at| {
@@ -94,25 +90,23 @@ const FLAT: Law = Law { own: None, momentum: in_dphi, rate: None, value: |at| [a
 
 const BODY_ON_A_GROUP: Law = Law {
     own: Some((letters::SPIN_IN_THE_BODY, in_the_body)),
-    momentum: || letter(letters::SPIN_IN_THE_BODY),
+    momentum: || Sentence::from(letters::SPIN_IN_THE_BODY),
     rate: Some(|| Summand::plus(commutator(letters::SPIN_IN_THE_BODY, letters::COMOVING_AFFINE_VELOCITY))),
     value: |at| [at.x.clone(), difference(&ring::product(&at.x, &at.o), &ring::product(&at.o, &at.x))],
 };
 
 const SPACE_ON_A_GROUP: Law = Law {
-    own: Some((letters::SPIN_IN_SPACE, || {
-        product([inverse_placement(), in_space(), letter(letters::PLACEMENT)])
-    })),
-    momentum: || letter(letters::SPIN_IN_SPACE),
+    own: Some((letters::SPIN_IN_SPACE, || product([inverse_placement(), in_space(), placement()]))),
+    momentum: || Sentence::from(letters::SPIN_IN_SPACE),
     rate: None,
     value: |at| [ring::product(&ring::product(&at.psi, &at.x), &at.phi), zero(&at.x)],
 };
 
 const FLAT_ON_A_GROUP: Law = Law {
-    own: Some((letters::SPIN_IN_DPHI, || product([in_dphi(), letter(letters::PLACEMENT)]))),
-    momentum: || letter(letters::SPIN_IN_DPHI),
+    own: Some((letters::SPIN_IN_DPHI, || product([in_dphi(), placement()]))),
+    momentum: || Sentence::from(letters::SPIN_IN_DPHI),
     rate: Some(|| {
-        Summand::plus(product([letters::SPIN_IN_DPHI, letters::COMOVING_AFFINE_VELOCITY].map(letter)))
+        Summand::plus(product([letters::SPIN_IN_DPHI, letters::COMOVING_AFFINE_VELOCITY].map(Sentence::from)))
     }),
     value: |at| {
         let momentum = ring::product(&at.x, &at.phi);

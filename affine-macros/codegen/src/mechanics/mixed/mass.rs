@@ -100,7 +100,7 @@ impl Placed {
             }
             (Frame::Space, _) if same_blocks(form, n) => {
                 let inertia = self.turned_inertia(arena, form);
-                let unit = table(n, |a, b| Polynomial::constant(Rational::from(i64::from(a == b))));
+                let unit = ring::scalar(n, &Polynomial::constant(Rational::ONE));
                 // On phi_dot no G comes in; where G is a multiple of 1, the inertia contains it.
                 let is_plain = frame == Frame::Flat || self.inverse_square.is_some();
                 by_rows(&inertia, if is_plain { &unit } else { &self.green }, basis)
@@ -150,8 +150,7 @@ impl Placed {
         j: usize,
     ) -> Polynomial {
         let n = h.len();
-        let scalar = table(n, |c, d| if c == d { h[0][0].clone() } else { Polynomial::zero() });
-        if *h == scalar && !h[0][0].is_zero() {
+        if *h == ring::scalar(n, &h[0][0]) && !h[0][0].is_zero() {
             return h[0][0].mul(&self.cauchy(arena, i, j));
         }
         pairs(n).map(|(c, d)| h[c][d].mul(&self.inverse[c][i].mul(&self.inverse[d][j]))).sum()

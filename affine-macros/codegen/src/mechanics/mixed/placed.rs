@@ -1,6 +1,6 @@
 //! What is known of a placement, of all of GL(n) or of a group that the motion is confined to.
 
-use crate::algebra::ring::{Square, adjugate, table, transpose, upper};
+use crate::algebra::ring::{Square, adjugate, scalar, table, transpose, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
@@ -25,8 +25,6 @@ pub(super) struct Placed {
 impl Placed {
     pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
         let phi = Matrix::symbols(arena, Quantity::Placement, n).atoms();
-        let unit =
-            |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
         match group {
             None => {
@@ -36,7 +34,7 @@ impl Placed {
             }
             Some(Constraint::Rigid) => Self {
                 inverse: transpose(&phi),
-                green: unit(&one),
+                green: scalar(n, &one),
                 inverse_square: Some(one),
                 shared: Vec::new(),
                 phi,
@@ -47,7 +45,7 @@ impl Placed {
                 let mut shared = definitions;
                 let inverse = table(n, |a, i| phi[i][a].mul(&inverse_square));
                 let inverse = matrix(arena, &mut shared, Quantity::InversePlacement, &inverse);
-                Self { inverse, green: unit(&square), inverse_square: Some(inverse_square), shared, phi }
+                Self { inverse, green: scalar(n, &square), inverse_square: Some(inverse_square), shared, phi }
             }
             Some(Constraint::Isochoric) => {
                 let mut shared = Vec::new();

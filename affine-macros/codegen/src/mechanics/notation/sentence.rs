@@ -1,6 +1,7 @@
 //! Formulas of matrices as trees. Two printers write a tree, as text and in LaTeX.
 
 use super::letter::Letter;
+use super::letters;
 use super::matrix_name::MatrixName;
 use crate::algebra::arena::Node;
 use crate::algebra::text::sign;
@@ -99,6 +100,11 @@ impl From<Letter> for Sentence {
 /// Factors side by side.
 pub(in crate::mechanics) fn product<const N: usize>(factors: [Sentence; N]) -> Sentence {
     Sentence::Product(factors.into())
+}
+
+/// `phi`.
+pub(in crate::mechanics) fn placement() -> Sentence {
+    letters::PLACEMENT.into()
 }
 
 /// `[a, b]`.

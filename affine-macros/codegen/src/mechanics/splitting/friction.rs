@@ -36,8 +36,7 @@ pub(super) fn flow(
             .map(|(.., rate)| momenta.iter().map(|z| rate.derivative(*z).neg()).collect())
             .collect();
         is_linear(&block, &momenta, &matrix).then_some(())?;
-        let faded = |k: usize| Quantity::Faded.at([b + 1, k + 1]);
-        let results: Vec<Expr> = (0..momenta.len()).map(|k| arena.symbol(faded(k))).collect();
+        let results = arena.components(Quantity::Faded.at([b + 1]), momenta.len());
         let time = Polynomial::atom(arena.symbol(Quantity::TimeOfFlow));
         let values = Polynomial::vector(&momenta);
         let arguments = vec![Group::Scalar(time), Group::Matrix(matrix), Group::Vector(values)];

@@ -110,10 +110,8 @@ impl Squares {
 impl Principal {
     fn symbols(arena: &mut Arena, b: usize, form: Vec<Vec<Polynomial>>) -> Self {
         let size = form.len();
-        let values = (1..=size).map(|k| arena.symbol(Quantity::BlockValue.at([b, k]))).collect();
-        let mut vector =
-            |k: usize| (1..=size).map(|i| arena.symbol(Quantity::BlockAxis.at([b, k, i]))).collect();
-        let vectors = (1..=size).map(&mut vector).collect();
+        let values = arena.components(Quantity::BlockValue.at([b]), size);
+        let vectors = (1..=size).map(|k| arena.components(Quantity::BlockAxis.at([b, k]), size)).collect();
         Self { form, values, vectors }
     }
 
