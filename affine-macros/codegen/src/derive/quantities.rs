@@ -1,7 +1,8 @@
 //! Quantities that are emitted when asked for.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::ring::{Square, pairs, product, scalar, table, transpose};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
@@ -164,36 +165,27 @@ fn inverse(
 /// That of the internal motion from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`:
 /// with `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
 fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
-    let (n, phi) = (h.dim, &chart.phi.0);
-    let pairs = || pairs(n);
-    let slope = |i: usize, a: usize, b: usize, j: usize| -> Polynomial {
+    let (n, phi, own) = (h.dim, &chart.phi.0, h.slopes());
+    let own = |[i, a]: [usize; 2], [j, b]: [usize; 2]| &own[n * i + a][n * j + b];
+    table(n * n, |row, column| {
+        let ([i, a], [j, b]) = ([row / n, row % n], [column / n, column % n]);
+        let through = |slope: &Polynomial, factors| slope.mul(&Polynomial::monomial(factors));
         match h.frame {
-            Frame::Flat => h.velocity[i][a].derivative(h.momentum.0[b][j]),
-            Frame::Body => pairs()
-                .map(|(c, e)| {
-                    h.velocity[c][a].derivative(h.momentum.0[b][e]).mul(&pair(phi[i][c], phi[j][e]))
-                })
-                .sum(),
-            Frame::Space => pairs()
-                .map(|(k, l)| {
-                    h.velocity[i][k].derivative(h.momentum.0[l][j]).mul(&pair(phi[k][a], phi[l][b]))
-                })
-                .sum(),
+            Frame::Flat => own([i, a], [j, b]).clone(),
+            Frame::Body => pairs(n).map(|(c, d)| through(own([c, a], [d, b]), [phi[i][c], phi[j][d]])).sum(),
+            Frame::Space => pairs(n).map(|(k, l)| through(own([i, k], [j, l]), [phi[k][a], phi[l][b]])).sum(),
         }
-    };
-    pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect()
+    })
 }
 
 /// That of a centre of mass with one mass: `1/m`, or `phi phi^T/m` where the body carries it.
 fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -> Square<Polynomial> {
-    let phi = &chart.phi.0;
-    table(chart.dim, |i, j| {
-        let form: Polynomial = match frame {
-            Some(Frame::Body) => phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right)).sum(),
-            _ => Polynomial::constant(Rational::from(i64::from(i == j))),
-        };
-        form.mul(inverse_mass)
-    })
+    let phi = chart.placement();
+    let form = match frame {
+        Some(Frame::Body) => product(&phi, &transpose(&phi)),
+        _ => scalar(chart.dim, &Polynomial::constant(Rational::ONE)),
+    };
+    table(chart.dim, |i, j| form[i][j].mul(inverse_mass))
 }
 
 /// The columns of the inverse of a matrix that depends on the placement, numbered from `first` on: the solutions for unit
@@ -214,18 +206,9 @@ fn columns(
     Some((0..size).map(column).collect())
 }
 
-fn pair(left: Expr, right: Expr) -> Polynomial {
-    Polynomial::monomial([left, right])
-}
-
 fn of_matrix(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
-    let name = |(row, values): (usize, &Vec<Polynomial>)| {
-        let entry = |(column, value): (usize, &Polynomial)| {
-            (Quantity::MatrixEntry.at([row + 1, column + 1]), value.clone())
-        };
-        values.iter().enumerate().map(entry).collect::<Vec<_>>()
-    };
-    entries.iter().enumerate().flat_map(name).collect()
+    let named = |(i, j): (usize, usize)| (Quantity::MatrixEntry.at([i + 1, j + 1]), entries[i][j].clone());
+    pairs(entries.len()).map(named).collect()
 }
 
 /// `x'' = sum over z of dx'/dz z'`, by the chain rule through every quantity on the way to `x'`.
@@ -298,11 +281,11 @@ impl Flow<'_> {
 
     /// The derivative of a symbol: a rate of the system, that of a definition, or zero for a parameter.
     fn slope(&mut self, arena: &mut Arena, symbol: Expr) -> Polynomial {
-        if let Some((_, known)) = self.slopes.iter().find(|(s, _)| *s == symbol) {
-            return known.clone();
+        if let Some(known) = listed(&self.slopes)(symbol) {
+            return known;
         }
         let rate = self.system.rates.iter().find(|(_, s, _)| *s == symbol).map(|(_, _, rate)| rate.clone());
-        let definition = self.system.shared.iter().find(|(s, _)| *s == symbol).map(|(_, p)| p.clone());
+        let definition = listed(&self.system.shared)(symbol);
         let value = match (rate, definition) {
             (Some(rate), _) => rate,
             (None, Some(definition)) => self.along(arena, &definition),

@@ -55,6 +55,16 @@ impl Load {
         listed(&self.forces)(z).unwrap_or_else(Polynomial::zero)
     }
 
+    /// The load with other forms of the same polynomials.
+    pub(super) fn mapped(&self, each: &mut impl FnMut(&Polynomial) -> Polynomial) -> Self {
+        Self {
+            shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
+            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(&mut *each)).collect(),
+            forces: self.forces.iter().map(|(z, p)| (*z, each(p))).collect(),
+            work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
+        }
+    }
+
     /// What it moves by itself, of the coordinates that determine the others.
     pub(super) fn alone(self, chart: &Chart) -> System {
         let rates = chart.independent().into_iter().map(|z| (z, chart.symbol(z), self.force(z))).collect();

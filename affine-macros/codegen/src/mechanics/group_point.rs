@@ -153,17 +153,13 @@ pub(super) fn inverse(m: &Square<Residue>) -> Square<Residue> {
     scaled(&adjugate(m), determinant(m).recip().unwrap_or(Residue::UNKNOWN))
 }
 
-fn inverse_determinant(m: &Square<Residue>) -> Residue {
-    never_missing(determinant(m).recip(), "a random matrix is regular", Residue::UNKNOWN)
-}
-
 fn scaled(m: &Square<Residue>, factor: Residue) -> Square<Residue> {
     table(m.len(), |i, j| m[i][j].mul(&factor))
 }
 
 /// The matrix with its first row divided by its determinant.
 fn unimodular(m: &Square<Residue>) -> Square<Residue> {
-    let factor = inverse_determinant(m);
+    let factor = never_missing(determinant(m).recip(), "a random matrix is regular", Residue::UNKNOWN);
     table(m.len(), |i, j| if i == 0 { m[i][j].mul(&factor) } else { m[i][j] })
 }
 

@@ -102,6 +102,12 @@ impl Hamiltonian {
         pairs(self.dim).map(product).sum::<Polynomial>().scaled(&Rational::HALF)
     }
 
+    /// `dO_k/dX_l`, constant for a quadratic form: of entries row-major, `l` transposed.
+    pub fn slopes(&self) -> Square<Polynomial> {
+        let n = self.dim;
+        table(n * n, |k, l| self.velocity[k / n][k % n].derivative(self.momentum.0[l % n][l / n]))
+    }
+
     /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
     pub fn is_tensor(&self) -> bool {

@@ -1,8 +1,8 @@
 //! What potential and forces add to Hamilton's equations.
 
+use crate::algebra::Arena;
 use crate::algebra::ring::table;
 use crate::algebra::substitute::listed;
-use crate::algebra::{Arena, Kernel, Polynomial};
 
 use super::charts::{Chart, Coordinate};
 use super::equations::Load;
@@ -36,21 +36,15 @@ pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forc
 impl Load {
     /// The same, where the motion is confined to a group: of the forces on the affine momentum the part that acts on its Lie
     /// algebra, and entries of momentum and velocity that are linear in others written through those.
-    pub fn confined(self, arena: &mut Arena, chart: &Chart) -> Self {
+    pub fn confined(mut self, arena: &mut Arena, chart: &Chart) -> Self {
         let Some(group) = chart.confined else { return self };
         let projected = group.projected(&table(chart.dim, |a, b| self.force(Coordinate::M(a, b))));
-        let dependent = [chart.dependent(), group.dependent(&chart.velocity(arena))].concat();
-        let value = listed(&dependent);
-        let each = |p: &Polynomial| p.substitute(&value);
-        let forces = self.forces.iter().map(|(z, force)| match z {
-            Coordinate::M(a, b) => (*z, each(&projected[*a][*b])),
-            _ => (*z, each(force)),
-        });
-        Self {
-            forces: forces.collect(),
-            shared: self.shared.iter().map(|(symbol, p)| (*symbol, each(p))).collect(),
-            kernels: self.kernels.iter().map(|kernel: &Kernel| kernel.with_arguments(each)).collect(),
-            work: self.work.as_ref().map(|(symbol, power)| (*symbol, each(power))),
+        for (z, force) in &mut self.forces {
+            if let Coordinate::M(a, b) = z {
+                *force = projected[*a][*b].clone();
+            }
         }
+        let dependent = [chart.dependent(), group.dependent(&chart.velocity(arena))].concat();
+        self.mapped(&mut |p| p.substitute(&listed(&dependent)))
     }
 }

@@ -1,6 +1,6 @@
 //! The equations as `q' = V(p)`, `p' = F(t, q)`: what Nystrom methods integrate.
 
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr};
 
 use super::body::Body;
 use super::charts::Coordinate;
@@ -58,17 +58,14 @@ fn rates_of(
     let mut all = System::default();
     for flow in &piece.flows {
         let Flow::Shift(system) = flow else { return None };
-        all.shared.extend(system.shared.iter().cloned());
-        all.kernels.extend(system.kernels.iter().cloned());
-        all.rates.extend(system.rates.iter().cloned());
+        all.join(system);
     }
     if all.rates.iter().any(|(_, symbol, _)| !components.contains(symbol)) {
         return None;
     }
     let rate = |symbol: Expr| {
-        let sum: Polynomial =
-            all.rates.iter().filter(|(_, moved, _)| *moved == symbol).map(|(_, _, rate)| rate).sum();
-        Some((coordinate(symbol)?, symbol, sum))
+        let z = coordinate(symbol)?;
+        Some((z, symbol, all.rate(z)))
     };
     let rates = components.iter().map(|symbol| rate(*symbol)).collect::<Option<Vec<_>>>()?;
     Some(System { rates, ..all })

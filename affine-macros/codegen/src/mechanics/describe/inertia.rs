@@ -1,7 +1,7 @@
 //! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
 
 use super::{Notation, Sentence, momentum, velocity};
-use crate::algebra::ring::{self, pairs, table};
+use crate::algebra::ring::{self, pairs};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
@@ -42,7 +42,7 @@ pub(super) fn inertial(
     let Coefficient::Matrix(matrix) = &term.value else { return None };
     let name = notation.matrix_name(arena, &matrix.0);
     let tensor = term.kind.is_tensor();
-    let inverse = if tensor { whole_inverse(h) } else { inverse_on_rows(h)? };
+    let inverse = if tensor { h.slopes() } else { inverse_on_rows(h)? };
     is_inverse(arena, notation, (&name, &matrix.0), &inverse).then(|| {
         let momentum = Momentum::of(h.frame);
         if tensor { on_pairs(arena, &name, momentum) } else { on_rows(arena, &name, momentum) }
@@ -58,17 +58,10 @@ pub(super) fn scalar_inverse(h: &Hamiltonian) -> Option<Polynomial> {
     (inverse == ring::scalar(h.dim, &inverse[0][0])).then(|| inverse[0][0].clone())
 }
 
-/// `dO_k/dX_l` of entries row-major, `l` transposed.
-fn whole_inverse(h: &Hamiltonian) -> Vec<Vec<Polynomial>> {
-    let n = h.dim;
-    let entry = |k: usize, l: usize| h.velocity[k / n][k % n].derivative(h.momentum.0[l % n][l / n]);
-    table(n * n, entry)
-}
-
 /// `J^-1` of `O = X^T J^-1`, where every row of `O` has the same.
 fn inverse_on_rows(h: &Hamiltonian) -> Option<Vec<Vec<Polynomial>>> {
     let n = h.dim;
-    let whole = whole_inverse(h);
+    let whole = h.slopes();
     let inverse: Vec<Vec<Polynomial>> = whole[..n].iter().map(|row| row[..n].to_vec()).collect();
     let fits = |k: usize, l: usize| match k / n == l / n {
         true => whole[k][l] == inverse[k % n][l % n],

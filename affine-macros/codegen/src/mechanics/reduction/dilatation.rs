@@ -187,13 +187,9 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
         let form = arena.replaced(form, &listed(&replaced));
         Polynomial::normal_form(arena, form)
     };
-    let shared = load.shared.iter().filter(|(symbol, _)| is_undefined(*symbol));
-    Load {
-        shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
-        forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),
-        work: load.work.as_ref().map(|(symbol, power)| (*symbol, at_rest(power))),
-        ..Load::default()
-    }
+    let shared = load.shared.iter().filter(|(symbol, _)| is_undefined(*symbol)).cloned().collect();
+    let load = Load { shared, kernels: Vec::new(), ..load.clone() };
+    load.mapped(&mut at_rest)
 }
 
 /// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
