@@ -11,6 +11,7 @@ pub mod packed;
 pub mod quotient;
 pub mod rounding;
 pub mod run;
+mod steps;
 pub mod tangent;
 pub mod taylor;
 
@@ -117,6 +118,18 @@ impl Program {
         self.calls.iter().flat_map(Call::operands).for_each(|v| uses[v] += 1);
         self.outputs.iter().for_each(|(_, v)| uses[*v] += 1);
         uses
+    }
+
+    /// Which values depend on the inputs that are asked about?
+    pub(crate) fn depending(&self, on: impl Fn(&Symbol) -> bool) -> Vec<bool> {
+        let mut depends = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            depends.push(match step {
+                Op::Input(symbol) => on(symbol),
+                step => step.operands().into_iter().any(|v| depends[v]),
+            });
+        }
+        depends
     }
 
     /// The program of one result alone.
