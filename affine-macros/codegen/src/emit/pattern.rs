@@ -94,6 +94,14 @@ pub(super) fn in_rows(results: &[TokenStream], size: usize) -> TokenStream {
     quote!([#(#rows),*])
 }
 
+/// One by itself, several as a tuple.
+pub(super) fn together(parts: &[TokenStream]) -> TokenStream {
+    match parts {
+        [one] => one.clone(),
+        several => quote!((#(#several),*)),
+    }
+}
+
 /// The components of a vector.
 pub(super) fn components(of: Quantity, n: usize) -> Vec<Symbol> {
     (1..=n).map(|i| of.at([i])).collect()

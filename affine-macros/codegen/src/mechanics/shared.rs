@@ -5,7 +5,7 @@ use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
-use super::metric::share;
+use super::metric::{Definitions, share};
 use super::term::Frame;
 use super::transport;
 
@@ -28,7 +28,7 @@ pub enum CentreVelocity {
 /// Quantities that forces share.
 pub(super) struct Shared<'a> {
     pub(super) arena: &'a mut Arena,
-    pub(super) list: Vec<(Expr, Polynomial)>,
+    pub(super) list: Definitions,
 }
 
 impl Shared<'_> {
@@ -102,6 +102,15 @@ impl Shared<'_> {
             (Linear::Space, _) => per_mass,
         }
     }
+}
+
+/// `phi^-1`, with what defines it.
+pub(super) fn inverse_placement(
+    arena: &mut Arena,
+    phi: &Square<Polynomial>,
+) -> (Square<Polynomial>, Definitions) {
+    let mut shared = Shared { arena, list: Definitions::new() };
+    (shared.inverse(phi), shared.list)
 }
 
 /// The forces on the momenta of a chart by those on its affine spin and on its `p`, if it has one: `I(O) = Sigma + x p^T`.

@@ -8,7 +8,8 @@ use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::shared::inverse_placement;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Factorised, Quantity};
 
@@ -133,7 +134,7 @@ impl Masses {
     /// What `p` and the energy share, `p`, and the energy, from `phi` and `x_dot` under any names.
     pub fn legendre(&self, arena: &mut Arena, x_dot: &[Expr]) -> (Definitions, Vec<Polynomial>, Polynomial) {
         let chart = Chart::new(arena, self.dim, Momentum::Canonical, Some(Linear::Space));
-        let (_, mut shared) = inverse_placement(arena, self.dim);
+        let (_, mut shared) = inverse_placement(arena, &chart.placement());
         let (definitions, momentum, energy) = self.lagrangian(arena, &chart, x_dot).legendre(false);
         shared.extend(definitions);
         (shared, momentum, energy)

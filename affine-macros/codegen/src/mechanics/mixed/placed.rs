@@ -4,8 +4,9 @@ use crate::algebra::ring::{Square, adjugate, scalar, table, transpose, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
-use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::potential::Base;
+use crate::mechanics::shared::inverse_placement;
 use crate::mechanics::weight::Weight;
 use crate::symbol::{Quantity, Symbol};
 
@@ -28,9 +29,9 @@ impl Placed {
         let one = Polynomial::constant(Rational::ONE);
         match group {
             None => {
-                let (inverse, shared) = inverse_placement(arena, n);
+                let (inverse, shared) = inverse_placement(arena, &phi);
                 let green = green(arena, n);
-                Self { inverse: inverse.atoms(), green, inverse_square: None, shared, phi }
+                Self { inverse, green, inverse_square: None, shared, phi }
             }
             Some(Constraint::Rigid) => Self {
                 inverse: transpose(&phi),
