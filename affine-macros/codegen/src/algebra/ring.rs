@@ -104,6 +104,11 @@ pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| combined(&a[i][j], &b[i][j], &Rational::ONE))
 }
 
+/// `factor m`.
+pub fn multiple<R: Ring>(m: &Square<R>, factor: &R) -> Square<R> {
+    table(m.len(), |i, j| dot([(&m[i][j], factor)]))
+}
+
 /// Adds `factor m`.
 pub fn add_multiple<R: Ring>(sum: &mut Square<R>, factor: &R, m: &Square<R>) {
     pairs(m.len()).for_each(|(i, j)| sum[i][j].plus_product(factor, &m[i][j], &Rational::ONE));

@@ -1,7 +1,7 @@
 //! Quantities that are emitted when asked for.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::ring::{Square, pairs, product, scalar, table, transpose};
+use crate::algebra::ring::{Square, multiple, pairs, product, scalar, table, transpose};
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
@@ -185,7 +185,7 @@ fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -
         Some(Frame::Body) => product(&phi, &transpose(&phi)),
         _ => scalar(chart.dim, &Polynomial::constant(Rational::ONE)),
     };
-    table(chart.dim, |i, j| form[i][j].mul(inverse_mass))
+    multiple(&form, inverse_mass)
 }
 
 /// The columns of the inverse of a matrix that depends on the placement, numbered from `first` on: the solutions for unit

@@ -13,7 +13,9 @@ use rustc_hash::FxHashMap;
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, adjugate, determinant, difference, product, scalar, sum, table};
+use crate::algebra::ring::{
+    Ring, Square, adjugate, determinant, difference, multiple, product, scalar, sum, table,
+};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -57,7 +59,7 @@ impl GroupPoint {
             Some(Constraint::Isochoric) => unimodular(&point.sample(arena, &chart.phi)),
             Some(Constraint::Rigid | Constraint::Conformal) => {
                 let rotation = cayley(&Constraint::Rigid.projected(&point.sample(arena, &chart.phi)));
-                scaled(&rotation, scale)
+                multiple(&rotation, &scale)
             }
         };
         let momentum = point.sample(arena, &chart.m);
@@ -150,11 +152,7 @@ impl GroupPoint {
 
 /// The inverse matrix.
 pub(super) fn inverse(m: &Square<Residue>) -> Square<Residue> {
-    scaled(&adjugate(m), determinant(m).recip().unwrap_or(Residue::UNKNOWN))
-}
-
-fn scaled(m: &Square<Residue>, factor: Residue) -> Square<Residue> {
-    table(m.len(), |i, j| m[i][j].mul(&factor))
+    multiple(&adjugate(m), &determinant(m).recip().unwrap_or(Residue::UNKNOWN))
 }
 
 /// The matrix with its first row divided by its determinant.

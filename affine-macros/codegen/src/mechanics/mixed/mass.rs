@@ -175,7 +175,7 @@ impl Placed {
             None => product(&product(&self.inverse, &j), &transpose(&self.inverse)),
             Some(factor) => {
                 let turned = product(&product(&transpose(&self.phi), &j), &self.phi);
-                table(n, |a, b| turned[a][b].mul(factor))
+                ring::multiple(&turned, factor)
             }
         };
         // One name for both triangles.
