@@ -2,6 +2,7 @@
 
 pub mod arena;
 pub mod bind;
+pub mod definitions;
 mod derivative;
 pub mod division;
 pub mod evaluate;

@@ -2,7 +2,6 @@
 
 mod batch;
 mod body;
-mod components;
 mod conditions;
 mod conserved;
 mod domain;
@@ -12,7 +11,6 @@ mod invariance;
 mod lattice;
 mod metrics;
 mod model;
-mod phase_space;
 mod point;
 mod prepared;
 mod programs;
@@ -20,7 +18,6 @@ mod quantities;
 pub mod second_order;
 pub mod splitting;
 mod stated;
-mod symbols;
 mod unconstrained;
 mod ways;
 mod well_posed;
@@ -40,17 +37,15 @@ use prepared::{coefficient_program, damping, in_order, inverted, well_posed};
 use programs::Reduced;
 use ways::Ways;
 
-pub use components::Components;
 pub use conserved::{Component, Conserved};
-pub use domain::{Domain, Sign, SignedArgument};
+pub use domain::Domain;
 pub use equations::Equations;
-pub use lattice::{PieceProgram, PiecePrograms, Places, RatioProgram, TwoPolar};
+pub use lattice::{PieceProgram, PiecePrograms, RatioProgram, TwoPolar};
 pub use metrics::{ChangeOfBases, GivenMatrix, GivenSource};
 use model::{Dynamics, Facts, Methods};
 pub use model::{Formulas, MixedMasses, Model, PointPrograms, Regularity, Variational, VelocitySide};
 pub use prepared::{Prepared, Step};
 pub use quantities::{Balance, BalancedQuantities, Metric, Quantities};
-pub use symbols::{VolumeMeasure, reads_time};
 pub use well_posed::{Condition, Factor, NumericBlock, Relation};
 pub use written::{Part, Written};
 

@@ -9,6 +9,7 @@ mod context;
 mod description;
 mod domain;
 mod dynamics;
+mod expression;
 mod fields;
 mod forces;
 mod groups;

@@ -11,11 +11,12 @@ pub mod packed;
 pub mod quotient;
 pub mod rounding;
 pub mod run;
+mod steps;
 pub mod tangent;
 pub mod taylor;
 
 use crate::algebra::{Function, Rational};
-use crate::symbol::Symbol;
+use crate::symbol::{Quantity, Symbol};
 
 pub use call::Value;
 
@@ -84,6 +85,11 @@ impl Program {
         self.symbols().cloned().collect()
     }
 
+    /// Does it read the time?
+    pub fn reads_time(&self) -> bool {
+        self.symbols().any(|symbol| symbol.quantity() == Some(Quantity::Time))
+    }
+
     /// The results, by name.
     pub fn results(&self) -> impl Iterator<Item = &Symbol> {
         self.outputs.iter().map(|(name, _)| name)
@@ -114,6 +120,18 @@ impl Program {
         uses
     }
 
+    /// Which values depend on the inputs that are asked about?
+    pub(crate) fn depending(&self, on: impl Fn(&Symbol) -> bool) -> Vec<bool> {
+        let mut depends = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            depends.push(match step {
+                Op::Input(symbol) => on(symbol),
+                step => step.operands().into_iter().any(|v| depends[v]),
+            });
+        }
+        depends
+    }
+
     /// The program of one result alone.
     pub fn only(&self, result: &Symbol) -> Self {
         let mut program = self.clone();
@@ -127,6 +145,14 @@ impl Program {
             Op::Input(symbol) => self.calls.iter().find(|call| call.provides(symbol)),
             _ => None,
         }
+    }
+
+    /// With the calls, names and results of a program whose values have these places in it, and only what the results need.
+    pub(crate) fn ending_as(mut self, other: &Self, place: &[Value]) -> Self {
+        self.calls = other.calls.iter().map(|call| call.renumbered(place)).collect();
+        self.names = other.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
+        self.outputs = other.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
+        self.without_dead_steps()
     }
 
     /// Keeps only what the results need, in the same order.

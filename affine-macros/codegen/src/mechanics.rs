@@ -35,5 +35,6 @@ pub mod shared;
 pub mod splitting;
 pub mod symmetry;
 pub mod term;
+mod transport;
 pub mod two_polar;
 pub mod weight;

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use crate::algebra::bind::Constants;
+use crate::algebra::definitions::needed;
 use crate::algebra::factor::{First, complete_sums, factored, number_of_all, scale_atoms};
 use crate::algebra::fault::never_missing;
 use crate::algebra::products::share_products;
@@ -28,17 +29,8 @@ impl Batch {
     /// Without the shared quantities that no result needs.
     pub fn pruned(self, arena: &Arena) -> Self {
         let Self { shared, results, kernels } = self;
-        let mut needed: FxHashSet<Expr> = FxHashSet::default();
-        let mut open: Vec<&Polynomial> = results.iter().map(|(_, p)| p).collect();
-        open.extend(kernels.iter().flat_map(Kernel::inputs));
-        while let Some(polynomial) = open.pop() {
-            polynomial.any_symbol(arena, &mut |symbol| {
-                if needed.insert(symbol) {
-                    open.extend(shared.iter().filter(|(s, _)| *s == symbol).map(|(_, p)| p));
-                }
-                false
-            });
-        }
+        let inputs = kernels.iter().flat_map(Kernel::inputs);
+        let needed = needed(arena, &shared, results.iter().map(|(_, p)| p).chain(inputs));
         let kept = shared.iter().filter(|(symbol, _)| needed.contains(symbol)).cloned().collect();
         Self { shared: kept, results, kernels }
     }

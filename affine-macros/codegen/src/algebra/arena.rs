@@ -94,8 +94,9 @@ impl Arena {
         symbols.map(|symbol| self.symbol(symbol))
     }
 
-    /// The components 1 to `n` of a quantity.
-    pub fn components(&mut self, of: Quantity, n: usize) -> Vec<Expr> {
+    /// The components 1 to `n` of a symbol.
+    pub fn components(&mut self, of: impl Into<Symbol>, n: usize) -> Vec<Expr> {
+        let of = of.into();
         (1..=n).map(|k| self.symbol(of.at([k]))).collect()
     }
 
@@ -122,6 +123,12 @@ impl Arena {
     pub fn symbol_of(&self, expr: Expr) -> Symbol {
         let symbol = self.as_symbol(expr).cloned();
         never_missing(symbol, "only symbols are asked for what they stand for", Quantity::Difference.into())
+    }
+
+    /// The symbols that some expressions are for sure.
+    #[track_caller]
+    pub fn symbols_of(&self, symbols: &[Expr]) -> Vec<Symbol> {
+        symbols.iter().map(|symbol| self.symbol_of(*symbol)).collect()
     }
 
     /// Name of an expression that is a symbol.

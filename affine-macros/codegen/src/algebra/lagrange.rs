@@ -3,6 +3,7 @@
 use super::arena::Arena;
 use super::polynomial::Polynomial;
 use super::rational::Rational;
+use super::ring::scalar;
 
 /// Weights `d_k` and rows of linear forms `l_k` with `F = sum over k of d_k l_k^T l_k`, as many as the rank; `None` where a
 /// pivot has no reciprocal.
@@ -14,9 +15,7 @@ pub fn completed(
     mut form: Vec<Vec<Polynomial>>,
 ) -> Option<Vec<(Polynomial, Vec<Polynomial>)>> {
     let size = form.len();
-    let unit =
-        |i: usize| (0..size).map(|j| Polynomial::constant(Rational::from(i64::from(i == j)))).collect();
-    let mut rows: Vec<Vec<Polynomial>> = (0..size).map(unit).collect();
+    let mut rows = scalar(size, &Polynomial::constant(Rational::ONE));
     let mut open: Vec<usize> = (0..size).collect();
     let mut squares = Vec::new();
     while let Some(k) = pivot(&mut form, &mut rows, &open) {

@@ -28,6 +28,11 @@ impl Matrix {
         table(self.dim(), |i, j| Polynomial::atom(self.0[i][j]))
     }
 
+    /// Its entries as polynomials.
+    pub fn normal_form(&self, arena: &mut Arena) -> Square<Polynomial> {
+        table(self.dim(), |i, j| Polynomial::normal_form(arena, self.0[i][j]))
+    }
+
     /// Number of rows.
     pub fn dim(&self) -> usize {
         self.0.len()

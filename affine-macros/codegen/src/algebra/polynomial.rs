@@ -43,6 +43,11 @@ impl Polynomial {
         Self::term(vec![atom], Rational::ONE)
     }
 
+    /// The polynomials of some atoms.
+    pub fn vector(atoms: &[Expr]) -> Vec<Self> {
+        atoms.iter().map(|atom| Self::atom(*atom)).collect()
+    }
+
     /// `coefficient * monomial`; the monomial is sorted.
     pub fn term(monomial: Monomial, coefficient: Rational) -> Self {
         let mut result = Self::zero();
@@ -133,6 +138,14 @@ impl Polynomial {
         match self.terms.as_slice() {
             [] => Some(Rational::ZERO),
             [(monomial, c)] if monomial.is_empty() => Some(c.clone()),
+            _ => None,
+        }
+    }
+
+    /// The atom that it is, with nothing beside it.
+    pub fn as_atom(&self) -> Option<Expr> {
+        match self.terms.as_slice() {
+            [(monomial, c)] if c.is_one() && monomial.len() == 1 => monomial.first().copied(),
             _ => None,
         }
     }
@@ -284,6 +297,11 @@ impl Polynomial {
         slopes
     }
 
+    /// The second derivatives by some atoms.
+    pub fn hessian(&self, atoms: &[Expr]) -> Vec<Vec<Self>> {
+        self.gradient(atoms).iter().map(|slope| slope.gradient(atoms)).collect()
+    }
+
     /// Replaces atoms by polynomials.
     pub fn substitute(&self, value: &impl Fn(Expr) -> Option<Polynomial>) -> Self {
         let mut result = Self::zero();
@@ -317,6 +335,14 @@ impl Polynomial {
     /// Does any term contain an atom for which `wanted` holds?
     pub fn mentions(&self, mut wanted: impl FnMut(Expr) -> bool) -> bool {
         self.atoms().any(|atom| wanted(*atom))
+    }
+}
+
+/// Adds to what a list has for a key.
+pub fn add_to<K: PartialEq>(list: &mut Vec<(K, Polynomial)>, key: K, summand: &Polynomial) {
+    match list.iter_mut().find(|(known, _)| *known == key) {
+        Some((_, sum)) => sum.add_scaled(summand, &Rational::ONE),
+        None => list.push((key, summand.clone())),
     }
 }
 

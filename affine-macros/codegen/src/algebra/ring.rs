@@ -67,6 +67,11 @@ pub fn table<R>(n: usize, mut entry: impl FnMut(usize, usize) -> R) -> Square<R>
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
+/// `value 1`.
+pub fn scalar<R: Ring>(n: usize, value: &R) -> Square<R> {
+    table(n, |i, j| if i == j { value.clone() } else { R::zero() })
+}
+
 /// All places of a square matrix, row after row.
 pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..n).flat_map(move |a| (0..n).map(move |b| (a, b)))
@@ -99,6 +104,11 @@ pub fn sum<R: Ring>(a: &Square<R>, b: &Square<R>) -> Square<R> {
     table(a.len(), |i, j| combined(&a[i][j], &b[i][j], &Rational::ONE))
 }
 
+/// `factor m`.
+pub fn multiple<R: Ring>(m: &Square<R>, factor: &R) -> Square<R> {
+    table(m.len(), |i, j| dot([(&m[i][j], factor)]))
+}
+
 /// Adds `factor m`.
 pub fn add_multiple<R: Ring>(sum: &mut Square<R>, factor: &R, m: &Square<R>) {
     pairs(m.len()).for_each(|(i, j)| sum[i][j].plus_product(factor, &m[i][j], &Rational::ONE));
@@ -121,11 +131,21 @@ pub fn skew<R: Ring>(m: &Square<R>) -> Vec<R> {
     above_diagonal(m.len()).map(|(a, b)| combined(&m[a][b], &m[b][a], &Rational::MINUS_ONE)).collect()
 }
 
+/// `tr m`.
+pub fn trace<R: Ring>(m: &Square<R>) -> R {
+    let mut sum = R::zero();
+    (0..m.len()).for_each(|a| sum.plus(&m[a][a], &Rational::ONE));
+    sum
+}
+
+/// `tr(a b)`.
+pub fn trace_of_product<R: Ring>(a: &Square<R>, b: &Square<R>) -> R {
+    dot(pairs(a.len()).map(|(i, j)| (&a[i][j], &b[j][i])))
+}
+
 /// `m - (tr m / n) 1`.
 pub fn deviator<R: Ring>(m: &Square<R>) -> Square<R> {
-    let mut trace = R::zero();
-    (0..m.len()).for_each(|k| trace.plus(&m[k][k], &Rational::ONE));
-    let nth = -&Rational::one_over(m.len());
+    let (trace, nth) = (trace(m), -&Rational::one_over(m.len()));
     table(m.len(), |i, j| {
         let mut value = m[i][j].clone();
         if i == j {

@@ -70,8 +70,8 @@ impl Arena {
     }
 }
 
-/// The value that a list has for an expression.
-pub fn listed<T: Clone>(list: &[(Expr, T)]) -> impl Fn(Expr) -> Option<T> {
+/// The value that a list has for a key.
+pub fn listed<K: PartialEq, T: Clone>(list: &[(K, T)]) -> impl Fn(K) -> Option<T> {
     |wanted| list.iter().find(|(known, _)| *known == wanted).map(|(_, value)| value.clone())
 }
 

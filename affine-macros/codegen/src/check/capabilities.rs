@@ -8,18 +8,18 @@ use super::together;
 
 /// The lattice in ratios of stretches is a way to write the lattice; of a model that has none in ratios that is said already.
 pub(super) fn ratios(spec: &Spec, found: &mut Diagnostics) {
-    let ratios = spec.emit.iter().find(|c| c.value == Capability::Ratios);
     let refused = || together::refuses(spec, Part::Emitted(Capability::Ratios));
+    let ratios = spec.emitted(Capability::Ratios);
     if let Some(ratios) = ratios.filter(|_| !spec.asked().has(Capability::TwoPolar) && !refused()) {
-        found.report(ratios.span, CapabilityMistake::RatiosAlone);
+        found.report(ratios, CapabilityMistake::RatiosAlone);
     }
 }
 
 /// Where the centre of mass is fixed it has no acceleration.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
-    let asked = spec.emit.iter().find(|capability| capability.value == Capability::Acceleration);
+    let asked = spec.emitted(Capability::Acceleration);
     if let Some(acceleration) = asked.filter(|_| spec.translation().is_none()) {
-        let form = acceleration.value.name().to_owned();
-        found.report(acceleration.span, PotentialMistake::FixedCentre { form });
+        let form = Capability::Acceleration.name().to_owned();
+        found.report(acceleration, PotentialMistake::FixedCentre { form });
     }
 }

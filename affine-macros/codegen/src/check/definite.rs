@@ -1,6 +1,6 @@
 //! Rules on the signs of a kinetic energy: no eigenvalue may vanish, and none be negative where that is required.
 
-use super::written::{Written, eigenvalue_name, matrix_text};
+use super::written::{Written, eigenvalue_name, matrix_text, velocity_name};
 use crate::diagnostics::{Diagnostics, FormMistake};
 use crate::mechanics::direction::Direction;
 use crate::mechanics::hessian::Hessian;
@@ -23,12 +23,8 @@ pub(super) fn invertible(spec: &Spec, frame: Frame, hessian: &Hessian, found: &m
         } else if let Some(kernel) = block.inertia(spec.dim.value).and_then(|inertia| inertia.kernel) {
             let kernel = matrix_text(spec.dim.value, &kernel);
             let mistake = FormMistake::DegenerateTensor {
-                terms: internal_terms(spec).map(|t| t.kind.value.name()).collect::<Vec<_>>().join(" + "),
-                velocity: match frame {
-                    Frame::Space => "Om",
-                    Frame::Flat => "phi_dot",
-                    Frame::Body => "Oh",
-                },
+                terms: internal_names(spec),
+                velocity: velocity_name(frame),
                 kernel,
             };
             found.report(spec.kinetic_key, mistake);
@@ -40,9 +36,7 @@ pub(super) fn invertible(spec: &Spec, frame: Frame, hessian: &Hessian, found: &m
 /// `require(positive_definite)`: every square of the form, and the mass, is positive. Squares with fields are
 /// left to `prepare()`.
 pub(super) fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found: &mut Diagnostics) {
-    let Some(required) = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite) else {
-        return;
-    };
+    let Some(required) = spec.required(Requirement::PositiveDefinite) else { return };
     let mut reported = Vec::new();
     for block in &hessian.blocks {
         let kind = block.basis[0].kind;
@@ -62,19 +56,24 @@ pub(super) fn positive(spec: &Spec, kinetic: &Kinetic, hessian: &Hessian, found:
             _ if inertia.negative == 1 => "T has a negative square".to_owned(),
             _ => format!("T has {} negative squares", inertia.negative),
         };
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
+        found.report(required, FormMistake::NotPositiveDefinite { defect });
     }
     let mass = spec.kinetic.iter().find(|t| t.kind.value.is_translation());
     if let Some((term, value)) = mass.and_then(|t| Some((t, kinetic_terms(spec).scalar(t)?)))
         && value.is_negative()
     {
         let defect = format!("the mass `{} = {value}` is negative", term.kind.value.name());
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
+        found.report(required, FormMistake::NotPositiveDefinite { defect });
     }
 }
 
 fn internal_terms(spec: &Spec) -> impl Iterator<Item = &spec::Term> {
     spec.kinetic.iter().filter(|t| !t.kind.value.is_translation())
+}
+
+/// Their names, joined by `+`.
+pub(super) fn internal_names(spec: &Spec) -> String {
+    internal_terms(spec).map(|term| term.kind.value.name()).collect::<Vec<_>>().join(" + ")
 }
 
 fn kinetic_terms(spec: &Spec) -> Written<'_> {

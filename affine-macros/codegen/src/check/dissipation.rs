@@ -1,15 +1,15 @@
 //! Rules on the dissipation function `R`.
 
-use super::written::{Written, eigenvalue_name, matrix_text};
+use super::written::{Written, eigenvalue_name, matrix_text, vanishing_term, velocity_name};
 use crate::algebra::Rational;
 use crate::algebra::linear::negative_direction;
-use crate::diagnostics::{ConstraintMistake, Diagnostics, ForceMistake};
+use crate::diagnostics::{Diagnostics, ForceMistake};
 use crate::mechanics::direction::Direction;
 use crate::mechanics::dissipation::{Dissipation, Part};
 use crate::mechanics::hessian::{Block, Hessian};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::term::Frame;
-use crate::spec::{self, Named, Spec};
+use crate::spec::{self, Spec};
 
 /// Without a translational kinetic energy the centre of mass stands still, and nothing slows it.
 pub(super) fn centre(spec: &Spec, found: &mut Diagnostics) {
@@ -29,16 +29,10 @@ pub(super) fn nothing_vanishes(spec: &Spec, dissipation: &Dissipation, found: &m
     let group = Some(constraint.value);
     for Part { form, .. } in dissipation.parts.iter().filter(|part| part.form.frame != Frame::Flat) {
         for (place, energy) in &form.internal {
-            let alone =
-                Kinetic { constraint: group, internal: vec![(*place, energy.clone())], ..form.clone() };
+            let form = Kinetic { constraint: group, ..form.clone() };
             let written = spec.dissipation.iter().find(|term| same_kind(term, &form.terms[*place]));
-            if let Some(term) = written.filter(|_| Hessian::new(&alone).is_zero()) {
-                let mistake = ConstraintMistake::VanishingTerm {
-                    term: term.kind.value.name(),
-                    constraint: constraint.value.name(),
-                    of: "affine velocities",
-                    directions: constraint.value.velocities(),
-                };
+            if let Some(term) = written.filter(|_| Hessian::new(&form.only(*place, energy)).is_zero()) {
+                let mistake = vanishing_term(term.kind.value.name(), constraint.value, "affine velocities");
                 found.report(term.kind.span, mistake);
             }
         }
@@ -94,10 +88,6 @@ fn defect(written: &Written, part: &Part, block: &Block) -> Option<String> {
     let velocity = block.velocity(written.n, &direction);
     let half = Rational::HALF;
     let value = &block.square(&direction)? * &half;
-    let name = match part.form.frame {
-        Frame::Body => "Oh",
-        Frame::Space => "Om",
-        Frame::Flat => "phi_dot",
-    };
+    let name = velocity_name(part.form.frame);
     Some(format!("R = {value} at {name} = {}", matrix_text(written.n, &velocity)))
 }

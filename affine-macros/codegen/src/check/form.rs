@@ -1,5 +1,6 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
+use super::written::vanishing_term;
 use super::{definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
 use crate::algebra::Arena;
 use crate::diagnostics::{ConstraintMistake, Diagnostics, FormMistake, Reported};
@@ -213,15 +214,9 @@ pub(super) fn nothing_vanishes(spec: &Spec, parts: &[Kinetic], places: &[usize],
     let Some(constraint) = spec.constraint else { return };
     let energies = parts.iter().flat_map(|part| part.internal.iter().map(move |energy| (part, energy)));
     for (part, (place, energy)) in energies {
-        let alone = Kinetic { internal: vec![(*place, energy.clone())], ..part.clone() };
-        if Hessian::new(&alone).is_zero() {
+        if Hessian::new(&part.only(*place, energy)).is_zero() {
             let kind = spec.kinetic[places[*place]].kind;
-            let mistake = ConstraintMistake::VanishingTerm {
-                term: kind.value.name(),
-                constraint: constraint.value.name(),
-                of: "affine velocities",
-                directions: constraint.value.velocities(),
-            };
+            let mistake = vanishing_term(kind.value.name(), constraint.value, "affine velocities");
             found.report(kind.span, mistake);
         }
     }

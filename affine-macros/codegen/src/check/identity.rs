@@ -11,8 +11,18 @@ pub(super) fn vanishes(expression: &Expression, n: usize) -> bool {
     lower::expression(&mut arena, n, expression).is_some_and(|value| is_zero(&mut arena, value))
 }
 
+/// The places below the diagonal whose entries differ from those across it, as far as rows reach.
+pub(super) fn asymmetric(rows: &[Vec<Expression>], n: usize) -> impl Iterator<Item = (usize, usize)> {
+    let below = (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let entry = |i: usize, j: usize| rows.get(i)?.get(j);
+    below.filter(move |(i, j)| match (entry(*j, *i), entry(*i, *j)) {
+        (Some(upper), Some(lower)) => equal(upper, lower, n) == Some(false),
+        _ => false,
+    })
+}
+
 /// Are the expressions equal for all values of the fields? `None` where one of them has no value.
-pub(super) fn equal(left: &Expression, right: &Expression, n: usize) -> Option<bool> {
+fn equal(left: &Expression, right: &Expression, n: usize) -> Option<bool> {
     let mut arena = Arena::new();
     let left = lower::expression(&mut arena, n, left)?;
     let right = lower::expression(&mut arena, n, right)?;

@@ -1,6 +1,6 @@
 //! The inertia J of 1/2 tr(O J O^T), and masses. Signs that depend on fields are left to `prepare()`.
 
-use super::identity::equal;
+use super::identity::asymmetric;
 use crate::algebra::Rational;
 use crate::diagnostics::{Diagnostics, TermMistake};
 use crate::lower::constant;
@@ -28,24 +28,16 @@ pub(super) fn masses(spec: &Spec, found: &mut Diagnostics) {
 /// the mass distribution in the body (2.1). Entries with fields must be equal whatever the fields are.
 pub(super) fn symmetric(spec: &Spec, found: &mut Diagnostics) {
     for term in spec.forms().filter(|term| term.kind.value.is_inertia()) {
-        if let Value::Matrix(rows) = &term.value {
-            symmetric_rows(spec, term, rows, found);
-        }
-    }
-}
-
-fn symmetric_rows(spec: &Spec, term: &Term, rows: &[Vec<Expression>], found: &mut Diagnostics) {
-    for (i, j) in (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        let (Some(lower), Some(upper)) = (entry(rows, i, j), entry(rows, j, i)) else { continue };
-        if equal(upper, lower, spec.dim.value) == Some(false) {
+        let Value::Matrix(rows) = &term.value else { continue };
+        for (i, j) in asymmetric(rows, spec.dim.value) {
             let mistake = TermMistake::InertiaNotSymmetric {
                 term: term.kind.value.name(),
                 row: j + 1,
                 column: i + 1,
-                value: upper.to_string(),
-                transposed: lower.to_string(),
+                value: rows[j][i].to_string(),
+                transposed: rows[i][j].to_string(),
             };
-            found.report(lower.span, mistake);
+            found.report(rows[i][j].span, mistake);
         }
     }
 }
@@ -110,8 +102,4 @@ fn values(rows: &[Vec<Expression>], n: usize) -> Option<Vec<Vec<Rational>>> {
     let square = values.len() == n && values.iter().all(|row| row.len() == n);
     let symmetric = || (0..n).all(|i| (0..i).all(|j| values[i][j] == values[j][i]));
     (square && symmetric()).then_some(values)
-}
-
-fn entry(rows: &[Vec<Expression>], i: usize, j: usize) -> Option<&Expression> {
-    rows.get(i)?.get(j)
 }

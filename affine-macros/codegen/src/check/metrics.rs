@@ -1,10 +1,10 @@
 //! The metrics of space and body, and what can be stated beside them.
 
-use super::identity::equal;
+use super::identity::asymmetric;
 use super::inertia::defect;
-use super::shapes::counts;
+use super::shapes::has_size;
 use crate::algebra::Arena;
-use crate::diagnostics::{Diagnostics, MetricMistake, TermMistake};
+use crate::diagnostics::{Diagnostics, MetricMistake};
 use crate::spec::{Expression, ExpressionKind, MatrixName, Metric, PolynomialTrace, Spec, Value};
 
 fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
@@ -15,19 +15,7 @@ fn stated(spec: &Spec) -> impl Iterator<Item = &Metric> {
 pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for metric in stated(spec) {
-        for (at, counted, actual) in counts(&metric.value, metric.span, n) {
-            if actual != n {
-                let because = format!("n = {n}");
-                let mistake = TermMistake::MatrixSize {
-                    term: metric.side,
-                    counted,
-                    found: actual,
-                    expected: n,
-                    because,
-                };
-                found.report(at, mistake);
-            }
-        }
+        has_size((metric.side, &metric.value, metric.span), n, &format!("n = {n}"), found);
     }
 }
 
@@ -36,7 +24,7 @@ pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for metric in stated(spec) {
         if let Value::Matrix(rows) = &metric.value
-            && let Some((i, j)) = asymmetric(rows, n)
+            && let Some((i, j)) = asymmetric(rows, n).find(|(i, j)| is_whole(rows, *i) && is_whole(rows, *j))
         {
             let mistake = MetricMistake::MetricNotSymmetric {
                 side: metric.side,
@@ -52,12 +40,9 @@ pub(super) fn positive(spec: &Spec, found: &mut Diagnostics) {
     }
 }
 
-/// The first entry below the diagonal that differs from its transpose.
-fn asymmetric(rows: &[Vec<Expression>], n: usize) -> Option<(usize, usize)> {
-    let pairs = (0..rows.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    pairs
-        .filter(|(i, j)| rows[*i].len() == rows.len() && rows[*j].len() == rows.len())
-        .find(|(i, j)| equal(&rows[*j][*i], &rows[*i][*j], n) == Some(false))
+/// Has a row of a square matrix its length?
+fn is_whole(rows: &[Vec<Expression>], i: usize) -> bool {
+    rows[i].len() == rows.len()
 }
 
 /// Traces of `phi` itself, and of products of tensors of the body with tensors of space, take an index of space for one

@@ -82,9 +82,8 @@ fn regular_somewhere(
     found: &mut Diagnostics,
 ) -> Result<Mass, Reported> {
     let internal = Internal::new(arena, mixed).ok_or_else(|| {
-        let names = spec.kinetic.iter().filter(|term| !term.kind.value.is_translation());
-        let terms: Vec<&str> = names.map(|term| term.kind.value.name()).collect();
-        found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms: terms.join(" + ") })
+        let terms = definite::internal_names(spec);
+        found.report(spec.kinetic_key, FormMistake::DegenerateSum { terms })
     })?;
     Ok(Mass::Factorised(Box::new(internal)))
 }
@@ -106,8 +105,7 @@ fn is_positive(mixed: &Mixed) -> bool {
 /// `require(positive_definite)` of an energy without fields that is no sum of squares. One with fields is held to it
 /// at every start and along every motion.
 fn unproved(spec: &Spec, mixed: &Mixed, found: &mut Diagnostics) {
-    let required = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite);
-    let Some(required) = required else { return };
+    let Some(required) = spec.required(Requirement::PositiveDefinite) else { return };
     let has_fields = mixed
         .internal
         .iter()
@@ -117,6 +115,6 @@ fn unproved(spec: &Spec, mixed: &Mixed, found: &mut Diagnostics) {
             "a sum over different velocities is so at every placement where its parts in Oh, in Om and in \
                       phi_dot have no negative squares, and one of these has"
                 .to_owned();
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
+        found.report(required, FormMistake::NotPositiveDefinite { defect });
     }
 }

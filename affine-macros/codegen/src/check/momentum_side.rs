@@ -1,8 +1,9 @@
 //! The Hamiltonian as stated on the momentum side.
 
+use super::written::{bracketed, vanishing_term};
 use crate::algebra::fault::never_missing;
 use crate::algebra::{Arena, Polynomial};
-use crate::diagnostics::{ConstraintMistake, Diagnostics, Directions, FormMistake, TermMistake};
+use crate::diagnostics::{Diagnostics, Directions, FormMistake, TermMistake};
 use crate::lower::constant;
 use crate::mechanics::direction::Direction;
 use crate::mechanics::momentum_side::Stated;
@@ -10,15 +11,10 @@ use crate::spec::{Expression, ExpressionKind, MomentumKind, Named, Requirement, 
 
 /// Each term is a multiple of one invariant.
 pub(super) fn scalars(spec: &Spec, found: &mut Diagnostics) {
-    for term in terms(spec) {
-        let written = match term.value {
-            Value::Scalar(_) => continue,
-            Value::Diagonal(_) => "a diagonal matrix",
-            Value::Matrix(_) => "a matrix",
-        };
+    for term in terms(spec).filter(|term| written(term).is_none()) {
         let mistake = TermMistake::TermShape {
             term: term.kind.value.name(),
-            found: written,
+            found: term.value.shape(),
             takes: "a scalar: it multiplies one invariant of the affine spin or of p".to_owned(),
             instead: "write one expression, as in `casimir2 = 5/6`; inertias and tensors are stated in `kinetic(...)`"
                 .to_owned(),
@@ -101,12 +97,7 @@ pub(super) fn invertible(spec: &Spec, stated: &Stated, found: &mut Diagnostics) 
 pub(super) fn nothing_vanishes(arena: &mut Arena, spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
     let Some(constraint) = &spec.constraint else { return };
     for term in stated.vanishing(arena).into_iter().filter_map(|place| terms(spec).nth(place)) {
-        let mistake = ConstraintMistake::VanishingTerm {
-            term: term.kind.value.name(),
-            constraint: constraint.value.name(),
-            of: "affine momenta",
-            directions: constraint.value.velocities(),
-        };
+        let mistake = vanishing_term(term.kind.value.name(), constraint.value, "affine momenta");
         found.report(term.kind.span, mistake);
     }
 }
@@ -114,12 +105,10 @@ pub(super) fn nothing_vanishes(arena: &mut Arena, spec: &Spec, stated: &Stated, 
 /// `require(positive_definite)`: `T > 0` iff `H > 0`, for a form and its inverse have the same signs. Values with
 /// fields are left to `prepare()`.
 pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
-    let Some(required) = spec.require.iter().find(|r| r.value == Requirement::PositiveDefinite) else {
-        return;
-    };
+    let Some(required) = spec.required(Requirement::PositiveDefinite) else { return };
     if stated.is_cubic() {
         let defect = "with `casimir3`, tr X^3 takes both signs".to_owned();
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
+        found.report(required, FormMistake::NotPositiveDefinite { defect });
         return;
     }
     let negative = |value: &Polynomial| value.as_constant().is_some_and(|value| value.is_negative());
@@ -129,31 +118,25 @@ pub(super) fn positive(spec: &Spec, stated: &Stated, found: &mut Diagnostics) {
             Some(numbers) if eigenvalue != numbers => format!("{eigenvalue} = {numbers}"),
             _ => eigenvalue,
         };
-        found.report(
-            required.span,
-            FormMistake::NotPositiveDefinite { defect: format!("{text} is negative") },
-        );
+        found.report(required, FormMistake::NotPositiveDefinite { defect: format!("{text} is negative") });
     }
     if let Some((place, _, value)) = &stated.translation
         && let (Some(value), Some(term)) = (value.as_constant(), terms(spec).nth(*place))
         && value.is_negative()
     {
         let defect = format!("the inverse mass `{} = {value}` is negative", term.kind.value.name());
-        found.report(required.span, FormMistake::NotPositiveDefinite { defect });
+        found.report(required, FormMistake::NotPositiveDefinite { defect });
     }
 }
 
 /// An eigenvalue by the names of the terms, with the user's coefficients in it, and the momenta it belongs to.
 fn eigenvalue(spec: &Spec, direction: Direction) -> (String, Option<String>, Directions) {
-    let coefficient = |kind: MomentumKind| {
-        let term = terms(spec).find(|term| term.kind.value == kind);
-        term.and_then(written).map_or_else(|| "0".to_owned(), |e| bracketed(e.to_string()))
-    };
+    let of = |kind| terms(spec).find(|term| term.kind.value == kind).and_then(written);
+    let coefficient = |kind| of(kind).map_or_else(|| "0".to_owned(), |e| bracketed(e.to_string()));
     let a = coefficient(MomentumKind::Casimir2);
     match direction {
         Direction::Shear | Direction::Entry => {
-            let written =
-                terms(spec).find(|term| term.kind.value == MomentumKind::Casimir2).and_then(written);
+            let written = of(MomentumKind::Casimir2);
             let is_zero =
                 |e: &Expression| matches!(&e.kind, ExpressionKind::Number(number) if number.is_zero());
             let numbers = written.filter(|e| !is_zero(e)).map(|_| a);
@@ -177,11 +160,6 @@ fn eigenvalue(spec: &Spec, direction: Direction) -> (String, Option<String>, Dir
             Directions::Trace,
         ),
     }
-}
-
-fn bracketed(text: String) -> String {
-    let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
-    if simple { text } else { format!("({text})") }
 }
 
 fn terms(spec: &Spec) -> impl Iterator<Item = &Term<MomentumKind>> {

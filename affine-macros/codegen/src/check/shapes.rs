@@ -1,5 +1,6 @@
 //! Scalars, diagonals and matrices where they belong, and of the size that the dimension asks for.
 
+use super::written::velocity_name;
 use crate::diagnostics::{Diagnostics, Region, TermMistake};
 use crate::spec::{Expression, Spec, Term, Value};
 use crate::symbol::{Frame, Pattern, TermKind};
@@ -8,14 +9,9 @@ use crate::symbol::{Frame, Pattern, TermKind};
 /// entries.
 pub(super) fn shapes(spec: &Spec, found: &mut Diagnostics) {
     for term in spec.forms() {
-        let written = match term.value {
-            Value::Scalar(_) => "a scalar",
-            Value::Diagonal(_) => "a diagonal matrix",
-            Value::Matrix(_) => "a matrix",
-        };
         if let Some((takes, instead)) = refused(term) {
-            let name = term.kind.value.name();
-            let mistake = TermMistake::TermShape { term: name, found: written, takes, instead };
+            let (name, shape) = (term.kind.value.name(), term.value.shape());
+            let mistake = TermMistake::TermShape { term: name, found: shape, takes, instead };
             found.report(term.span, mistake);
         }
     }
@@ -34,11 +30,7 @@ fn refused(term: &Term) -> Option<(String, String)> {
         }
         (Pattern::Rows, _) | (Pattern::Pairs, Value::Matrix(_)) => None,
         (Pattern::Pairs, _) => {
-            let o = match kind.internal_frame() {
-                Some(Frame::Space) => "Om",
-                Some(Frame::Flat) => "phi_dot",
-                _ => "Oh",
-            };
+            let o = velocity_name(kind.internal_frame().unwrap_or(Frame::Body));
             let same =
                 |other: &TermKind| other.is_inertia() && other.internal_frame() == kind.internal_frame();
             let inertia = TermKind::ALL.into_iter().find(same).map_or("", TermKind::name);
@@ -62,17 +54,27 @@ pub(super) fn sizes(spec: &Spec, found: &mut Diagnostics) {
         let kind = term.kind.value;
         let Some(expected) = kind.pattern().rows(n) else { continue };
         let because = if kind.is_tensor() { format!("n^2 = {expected}") } else { format!("n = {n}") };
-        for (at, counted, actual) in counts(&term.value, term.span, expected) {
-            if actual != expected {
-                let (term, because) = (kind.name(), because.clone());
-                found.report(at, TermMistake::MatrixSize { term, counted, found: actual, expected, because });
-            }
+        has_size((kind.name(), &term.value, term.span), expected, &because, found);
+    }
+}
+
+/// A matrix of this name has as many rows and columns as are `expected`.
+pub(super) fn has_size(
+    (term, value, span): (&'static str, &Value, Region),
+    expected: usize,
+    because: &str,
+    found: &mut Diagnostics,
+) {
+    for (at, counted, actual) in counts(value, span, expected) {
+        if actual != expected {
+            let because = because.to_owned();
+            found.report(at, TermMistake::MatrixSize { term, counted, found: actual, expected, because });
         }
     }
 }
 
 /// What is counted in a matrix: its rows, or what is in them where the number of rows is right.
-pub(super) fn counts(value: &Value, span: Region, expected: usize) -> Vec<(Region, String, usize)> {
+fn counts(value: &Value, span: Region, expected: usize) -> Vec<(Region, String, usize)> {
     match value {
         Value::Scalar(_) => Vec::new(),
         Value::Diagonal(entries) => vec![(span, "diagonal entries".to_owned(), entries.len())],

@@ -29,37 +29,30 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
         {
             continue;
         }
-        let absolute = absolute_value(arena, value);
+        let absolute = has_absolute_value(arena, value);
         let singular = singular_at_coincidence(arena, n, value);
-        if absolute.is_none() && singular.is_none() {
+        if !absolute && singular.is_none() {
             continue;
         }
         let kinks = kinks(arena, n, written, None);
         let innermost = kinks.into_iter().find(|kink| match kink {
-            Kink::Absolute(_) => absolute.is_some(),
+            Kink::Absolute(_) => absolute,
             Kink::Coincidence(..) => singular.is_some(),
         });
-        match (innermost, singular) {
-            (Some(Kink::Absolute(part)), _) => {
-                found.report(part.span, PotentialMistake::NotSmooth { written: part.to_string() });
-            }
+        let (part, coincidence) = match (innermost, singular) {
+            (Some(Kink::Absolute(part)), _) => (part, None),
             (Some(Kink::Coincidence(part, argument, stretches)), _) => {
-                let argument = argument.to_string();
-                let written = part.to_string();
-                found.report(part.span, PotentialMistake::Coincidence { written, argument, stretches });
+                (part, Some((argument.to_string(), stretches)))
             }
-            (None, Some((argument, (a, b)))) => {
-                let (argument, stretches) = (arena.text(argument), (a + 1, b + 1));
-                let all = written.to_string();
-                found.report(
-                    written.span,
-                    PotentialMistake::Coincidence { written: all, argument, stretches },
-                );
-            }
-            (None, None) => {
-                found.report(written.span, PotentialMistake::NotSmooth { written: written.to_string() });
-            }
-        }
+            (None, Some((argument, (a, b)))) => (written, Some((arena.text(argument), (a + 1, b + 1)))),
+            (None, None) => (written, None),
+        };
+        let written = part.to_string();
+        let mistake = match coincidence {
+            Some((argument, stretches)) => PotentialMistake::Coincidence { written, argument, stretches },
+            None => PotentialMistake::NotSmooth { written },
+        };
+        found.report(part.span, mistake);
     }
 }
 
@@ -103,16 +96,16 @@ fn symmetric(
     true
 }
 
-/// The argument of an absolute value in `value` that depends on the state; those of known sign are gone by now.
-fn absolute_value(arena: &Arena, value: Expr) -> Option<Expr> {
+/// Is there an absolute value in `value` that depends on the state? Those of known sign are gone by now.
+fn has_absolute_value(arena: &Arena, value: Expr) -> bool {
     let mut pending = vec![value];
     while let Some(expr) = pending.pop() {
         match arena.node(expr) {
-            Node::Function(Function::Abs, argument) if moves(arena, *argument) => return Some(*argument),
+            Node::Function(Function::Abs, argument) if moves(arena, *argument) => return true,
             _ => pending.extend(arena.parts(expr)),
         }
     }
-    None
+    false
 }
 
 /// Does the expression change with the state? What changes with fields and the time alone is a factor of forces, and may

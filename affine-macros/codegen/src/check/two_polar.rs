@@ -15,12 +15,10 @@ pub(super) fn asked(
     potential: Option<&Potential>,
     found: &mut Diagnostics,
 ) -> Result<bool, Reported> {
-    let Some(asked) = spec.emit.iter().find(|capability| capability.value == Capability::TwoPolar) else {
-        return Ok(false);
-    };
+    let Some(asked) = spec.emitted(Capability::TwoPolar) else { return Ok(false) };
     let mut anisotropic = |part: String, side: Side, transformation: String| {
         let side = if side == Side::Space { "space" } else { "the body" };
-        found.report(asked.span, CapabilityMistake::NotDoublyIsotropic { part, side, transformation });
+        found.report(asked, CapabilityMistake::NotDoublyIsotropic { part, side, transformation });
     };
     for side in [Side::Space, Side::Body] {
         if let Some((breaker, place)) = broken_by(kinetic, side, Group::Metric) {

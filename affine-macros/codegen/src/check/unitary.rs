@@ -3,7 +3,7 @@
 use crate::diagnostics::{CapabilityMistake, Diagnostics};
 use crate::mechanics::potential::Potential;
 use crate::spec::{Capability, Named, Spec};
-use crate::symbol::Pattern;
+use crate::symbol::{Pattern, TermKind};
 
 /// A potential on the circle depends on its angles alone.
 pub(super) fn of_angles(spec: &Spec, potential: Option<&Potential>, found: &mut Diagnostics) {
@@ -20,30 +20,23 @@ pub(super) fn casimirs_alone(spec: &Spec, found: &mut Diagnostics) {
     if spec.group.is_none() {
         return;
     }
-    for term in &spec.kinetic {
-        if !matches!(term.kind.value.pattern(), Pattern::TraceOfSquare | Pattern::SquareOfTrace) {
-            found.report(term.kind.span, CapabilityMistake::UnitaryTerm { part: term.kind.value.name() });
-        }
-    }
+    let casimirs = |kind: TermKind| matches!(kind.pattern(), Pattern::TraceOfSquare | Pattern::SquareOfTrace);
+    let others = spec.kinetic.iter().filter(|term| !casimirs(term.kind.value));
+    let others = others.map(|term| (term.kind.span, term.kind.value.name()));
     // Claims and requirements speak of GL(n, R).
-    if let Some(symmetry) = &spec.symmetry {
-        found.report(symmetry.space.span, CapabilityMistake::UnitaryTerm { part: "symmetry" });
-    }
-    if let Some(constraint) = &spec.constraint {
-        found.report(constraint.span, CapabilityMistake::UnitaryTerm { part: "constraint" });
-    }
-    if spec.hamiltonian.is_some() {
-        found.report(spec.kinetic_key, CapabilityMistake::UnitaryTerm { part: "hamiltonian" });
-    }
-    for metric in spec.metrics.iter().flatten() {
-        found.report(metric.span, CapabilityMistake::UnitaryTerm { part: "metrics" });
-    }
-    for requirement in &spec.require {
-        found.report(requirement.span, CapabilityMistake::UnitaryTerm { part: requirement.value.name() });
-    }
+    let stated = [
+        spec.symmetry.as_ref().map(|symmetry| (symmetry.space.span, "symmetry")),
+        spec.constraint.map(|constraint| (constraint.span, "constraint")),
+        spec.hamiltonian.as_ref().map(|_| (spec.kinetic_key, "hamiltonian")),
+    ];
+    let metrics = spec.metrics.iter().flatten().map(|metric| (metric.span, "metrics"));
+    let required = spec.require.iter().map(|requirement| (requirement.span, requirement.value.name()));
     // Besides the lattice itself, its pieces and its formulas.
     let goes = |capability: Capability| matches!(capability, Capability::Splitting | Capability::Latex);
-    for capability in spec.emit.iter().filter(|capability| !goes(capability.value)) {
-        found.report(capability.span, CapabilityMistake::UnitaryTerm { part: capability.value.name() });
+    let emitted = spec.emit.iter().filter(|capability| !goes(capability.value));
+    let emitted = emitted.map(|capability| (capability.span, capability.value.name()));
+    let all = others.chain(stated.into_iter().flatten()).chain(metrics).chain(required).chain(emitted);
+    for (at, part) in all {
+        found.report(at, CapabilityMistake::UnitaryTerm { part });
     }
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::algebra::Rational;
-use crate::diagnostics::Directions;
+use crate::diagnostics::{ConstraintMistake, Directions};
 use crate::mechanics::direction::Direction;
-use crate::spec::{self, Value};
+use crate::spec::{self, Named, Value};
+use crate::symbol::{Constraint, Frame};
 
 /// The internal terms of a quadratic form as the user wrote them.
 pub(super) struct Written<'a> {
@@ -20,6 +21,31 @@ pub(super) fn eigenvalue_name(kind: Direction) -> (&'static str, Directions) {
         Direction::Dilatation => ("I + A + n B", Directions::Trace),
         Direction::Shear | Direction::Entry => ("I + A", Directions::SymmetricTraceless),
     }
+}
+
+/// The velocity of a frame.
+pub(super) fn velocity_name(frame: Frame) -> &'static str {
+    match frame {
+        Frame::Body => "Oh",
+        Frame::Space => "Om",
+        Frame::Flat => "phi_dot",
+    }
+}
+
+/// A coefficient as a factor.
+pub(super) fn bracketed(text: String) -> String {
+    let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
+    if simple { text } else { format!("({text})") }
+}
+
+/// That a term is zero on all velocities, or momenta, that a constraint leaves.
+pub(super) fn vanishing_term(
+    term: &'static str,
+    constraint: Constraint,
+    of: &'static str,
+) -> ConstraintMistake {
+    let directions = constraint.velocities();
+    ConstraintMistake::VanishingTerm { term, constraint: constraint.name(), of, directions }
 }
 
 impl Written<'_> {
@@ -49,13 +75,9 @@ impl Written<'_> {
         let get = |names: &[&str]| {
             names.iter().find_map(|name| written.get(name)).cloned().unwrap_or_else(|| "0".to_owned())
         };
-        let bracket = |text: String| {
-            let simple = text.chars().all(|c| c.is_alphanumeric() || c == '.' || c == '_');
-            if simple { text } else { format!("({text})") }
-        };
         let i = get(&["body_inertia", "space_inertia", "dalembert"]);
-        let a = bracket(get(&["casimir2"]));
-        let b = bracket(get(&["casimir1_squared"]));
+        let a = bracketed(get(&["casimir2"]));
+        let b = bracketed(get(&["casimir1_squared"]));
         match kind {
             Direction::Rotation => format!("{i} - {a}"),
             Direction::Dilatation => format!("{i} + {a} + {}*{b}", self.n),

@@ -2,6 +2,7 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::above_diagonal;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
@@ -29,7 +30,15 @@ pub(super) fn unbound(arena: &mut Arena, results: Vec<(Symbol, Polynomial)>) -> 
 
 /// The program of values over the fields alone.
 pub(super) fn values(arena: &mut Arena, values: impl Iterator<Item = Polynomial>) -> Program {
-    unbound(arena, values.enumerate().map(|(k, p)| (Quantity::Value.at([k + 1]), p)).collect())
+    unbound(arena, numbered(Quantity::Value, values).collect())
+}
+
+/// Results by their numbers, from 1.
+pub(super) fn numbered(
+    of: Quantity,
+    results: impl IntoIterator<Item = Polynomial>,
+) -> impl Iterator<Item = (Symbol, Polynomial)> {
+    (1..).map(move |k| of.at([k])).zip(results)
 }
 
 /// The rates, and the power where the work is part of the motion.
@@ -61,9 +70,7 @@ pub(super) fn split_batch(arena: &mut Arena, chart: &Chart, system: &System) -> 
         let mean = entries[0].add(&entries[1]).scaled(&half);
         shared.extend([(symmetric, mean), (skew, entries[0].sub(&entries[1]))]);
     }
-    let value =
-        |atom: Expr| replaced.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone());
-    let mut result = batch(arena, &system.substitute(&value));
+    let mut result = batch(arena, &system.substitute(&listed(&replaced)));
     result.shared.extend(shared);
     result
 }

@@ -1,8 +1,8 @@
 //! What is known of the mass matrix before the fields or a placement are, and what is checked then.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
-use crate::mechanics::direction::Direction;
+use crate::algebra::ring::{Square, determinant};
+use crate::algebra::{Arena, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::form::Positive;
 use crate::mechanics::hessian::Hessian;
 use crate::mechanics::metric::Definitions;
@@ -12,9 +12,9 @@ use crate::mechanics::term::{Coefficient, TermKind};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
 
-use super::batch::program;
+use super::batch::{numbered, program};
 use super::model::Regularity;
-use super::well_posed::{Condition, Factor, Relation};
+use super::well_posed::{Condition, Factor, Relation, eigenvalue};
 
 /// What `prepare()` has to check once the fields have values: the eigenvalues of a constant mass matrix, masses, the inertia
 /// of d'Alembert's energy.
@@ -32,13 +32,10 @@ pub(super) fn conditions(
     let tensor = terms().any(|term| matches!(term.value, Coefficient::Matrix(_)));
     let mut list: Vec<(Factor, &'static str, bool, Polynomial)> = Vec::new();
     for (direction, value) in hessian.into_iter().flat_map(Hessian::eigenvalues) {
-        let (name, directions) = match direction {
+        let (name, directions) = match dalembert {
             // J has its eigenvalues once for each row of phi_dot, whatever the basis.
-            _ if dalembert => ("J", "a row of phi_dot"),
-            Direction::Shear => ("I + A", "symmetric traceless velocities (shear)"),
-            Direction::Rotation => ("I - A", "skew velocities (rotation)"),
-            Direction::Dilatation => ("I + A + n B", "multiples of the identity (dilatation)"),
-            Direction::Entry => ("K", "one entry of the affine velocity"),
+            true => ("J", "a row of phi_dot"),
+            false => eigenvalue(direction).unwrap_or(("K", "one entry of the affine velocity")),
         };
         // A tensor has no I, A and B of its own.
         let factor = Factor::Eigenvalue(if tensor && !dalembert { "the eigenvalue of T" } else { name });
@@ -68,27 +65,13 @@ fn leading_minors(arena: &mut Arena, inertia: &Coefficient) -> Vec<Polynomial> {
     match inertia {
         Coefficient::Scalar(i) => vec![Polynomial::normal_form(arena, *i)],
         Coefficient::Matrix(j) => {
-            let mut normal_form = |e: &Expr| Polynomial::normal_form(arena, *e);
-            let j: Vec<Vec<Polynomial>> =
-                j.0.iter().map(|row| row.iter().map(&mut normal_form).collect()).collect();
+            let j = j.normal_form(arena);
             let leading =
-                |k: usize| -> Vec<Vec<Polynomial>> { j[..k].iter().map(|row| row[..k].to_vec()).collect() };
-            (1..=j.len()).map(|k| determinant(&leading(k))).collect()
+                |k: usize| -> Square<Polynomial> { j[..k].iter().map(|row| row[..k].to_vec()).collect() };
+            let larger = (2..=j.len()).map(|k| determinant(&leading(k)));
+            std::iter::once(j[0][0].clone()).chain(larger).collect()
         }
     }
-}
-
-/// By the first row.
-fn determinant(rows: &[Vec<Polynomial>]) -> Polynomial {
-    let Some((first, below)) = rows.split_first() else { return Polynomial::constant(Rational::ONE) };
-    let mut sum = Polynomial::zero();
-    for (column, value) in first.iter().enumerate() {
-        let without = |row: &Vec<Polynomial>| [&row[..column], &row[column + 1..]].concat();
-        let minor: Vec<Vec<Polynomial>> = below.iter().map(without).collect();
-        let sign = if column % 2 == 0 { Rational::ONE } else { Rational::MINUS_ONE };
-        sum.add_product(value, &determinant(&minor), &sign);
-    }
-    sum
 }
 
 /// What tells at a placement whether the mass matrix is regular, where that is not known for all.
@@ -115,8 +98,8 @@ pub(super) fn regularity(
         for (block, count) in factorisation.blocks() {
             let sizes: Vec<Polynomial> =
                 block.diagonal().into_iter().map(|entry| size(arena, entry)).collect();
-            let values = block.upper.iter().chain(&sizes).enumerate();
-            let results = values.map(|(k, p)| (Quantity::Value.at([k + 1]), p.clone())).collect();
+            let values = block.upper.iter().chain(&sizes).cloned();
+            let results = numbered(Quantity::Value, values).collect();
             let batch = Batch { shared: shared.clone(), results, ..Batch::default() }.pruned(arena);
             let program = program(arena, &batch, coefficients, &phi);
             blocks.extend(std::iter::repeat_n((program, block.size), count));

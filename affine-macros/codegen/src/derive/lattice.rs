@@ -19,7 +19,7 @@ use crate::symbol::{Asked, Aspect, Capability, Quantity, Symbol};
 /// The two-polar form of a doubly isotropic model.
 pub struct TwoPolar {
     /// What the places are.
-    pub places: Places,
+    pub places: Variables,
     /// Symbols of the state, group after group.
     pub state: Vec<(Quantity, Vec<Symbol>)>,
     /// Symbols of the frames, beside the state.
@@ -40,27 +40,6 @@ pub struct TwoPolar {
     pub pieces: Option<PiecePrograms>,
     /// Its equations in ratios of stretches, if asked for.
     pub ratios: Option<RatioProgram>,
-}
-
-/// What is written on the diagonal of `D`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Places {
-    /// `q_a`, `D_aa = exp(q_a)`.
-    LogStretches,
-    /// `Q_a = D_aa`.
-    Stretches,
-    /// `q_a`, `D_aa = exp(i q_a)`.
-    Angles,
-}
-
-impl From<Variables> for Places {
-    fn from(variables: Variables) -> Self {
-        match variables {
-            Variables::LogStretches => Self::LogStretches,
-            Variables::Stretches => Self::Stretches,
-            Variables::Angles => Self::Angles,
-        }
-    }
 }
 
 /// Derives the programs of the lattice form, of U(n) or of GL(n).
@@ -86,17 +65,15 @@ pub(super) fn two_polar(
         equations.add(on_axes);
     }
     let stable = Stable::new(arena, &lattice);
-    let name = |arena: &Arena, s: &Expr| arena.symbol_of(*s);
-    let names = |arena: &Arena, symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect::<Vec<_>>();
     let (place, momentum) = match lattice.variables {
         Variables::LogStretches | Variables::Angles => (Quantity::LogStretches, Quantity::LogStretchMomenta),
         Variables::Stretches => (Quantity::Stretches, Quantity::StretchMomenta),
     };
-    let mut state = vec![(place, names(arena, &lattice.q)), (momentum, names(arena, &lattice.p))];
-    let skew = [names(arena, &lattice.m), names(arena, &lattice.n)];
-    let [m, n] = skew.clone();
+    let [q, p, m, n] =
+        [&lattice.q, &lattice.p, &lattice.m, &lattice.n].map(|symbols| arena.symbols_of(symbols));
+    let mut state = vec![(place, q), (momentum, p)];
     let couplings = match lattice.dim {
-        2 => skew.concat(),
+        2 => [m, n].concat(),
         _ => {
             state.extend([(Quantity::SumCouplings, m), (Quantity::DifferenceCouplings, n)]);
             Vec::new()
@@ -119,7 +96,7 @@ pub(super) fn two_polar(
     };
     let pieces = pieces.map(|pieces| PiecePrograms::of(arena, &pieces, &stable, &mut program));
     TwoPolar {
-        places: lattice.variables.into(),
+        places: lattice.variables,
         couplings,
         rates: program(arena, &rates),
         framed: program(arena, &framed),
@@ -162,8 +139,8 @@ fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) ->
 
 /// Names of the frames' components.
 fn groups(arena: &Arena, frames: &Frames) -> Vec<(Quantity, Vec<Symbol>)> {
-    let names = |symbols: &[Expr]| symbols.iter().map(|s| arena.symbol_of(*s)).collect::<Vec<_>>();
-    vec![(Quantity::LeftRotation, names(&frames.left)), (Quantity::RightRotation, names(&frames.right))]
+    let [left, right] = [&frames.left, &frames.right].map(|symbols| arena.symbols_of(symbols));
+    vec![(Quantity::LeftRotation, left), (Quantity::RightRotation, right)]
 }
 
 /// The rates of the frames beside those of the state.

@@ -7,7 +7,6 @@ use crate::mechanics::metrics::{Bases, Metrics, Rebased, Source};
 use crate::mechanics::term::Frame;
 
 use super::batch::values;
-use super::components::Components;
 
 /// Where the bases come from in which the metrics are the identity. The equations do not know of them.
 pub enum ChangeOfBases {
@@ -57,8 +56,8 @@ pub enum GivenSource {
     Form {
         /// Its entries in the user's bases, row after row.
         entries: Program,
-        /// Those of `O`, whose bases it goes with.
-        components: Components,
+        /// That of `O`, whose bases it goes with.
+        frame: Frame,
         /// Is it contracted with both indices of `O`?
         tensor: bool,
     },
@@ -73,12 +72,11 @@ impl GivenMatrix {
         let source = match &matrix.source {
             Source::Form(kind, given) => GivenSource::Form {
                 entries: entries(arena, given),
-                components: never_missing(
+                frame: never_missing(
                     kind.internal_frame(),
                     "no matrix stands at a term without a frame",
                     Frame::Body,
-                )
-                .into(),
+                ),
                 tensor: kind.is_tensor(),
             },
             Source::SpaceInverse => GivenSource::SpaceInverse,

@@ -9,12 +9,13 @@ use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::forces::Forces;
-use crate::mechanics::metric::Definitions;
+use crate::mechanics::metric::{Definitions, share};
 use crate::mechanics::mixed::Legendre;
 use crate::mechanics::potential::{Base, Potential};
 use crate::optimise::Batch;
 use crate::symbol::{Frame, Quantity};
 
+use super::batch::numbered;
 use super::domain::domain;
 use super::model::{MixedMasses, PointPrograms, VelocitySide};
 use super::programs::shortest_program;
@@ -94,11 +95,10 @@ impl Body<'_> {
 
     /// What functions of a point read.
     fn point(&self, arena: &mut Arena, chart: &Chart) -> Vec<Expr> {
-        let mut inputs = chart.symbols();
+        let mut inputs = self.inputs(arena, chart);
         if self.potential.is_some() {
             inputs.extend(placement_inputs(arena, chart.dim));
         }
-        inputs.extend(self.time(arena));
         inputs
     }
 
@@ -116,11 +116,8 @@ impl Body<'_> {
     fn centre(&self, arena: &mut Arena, x_dot: &[Expr]) -> Option<[Batch; 2]> {
         let (_, shared) = self.motion.masses.velocity(arena)?;
         let (definitions, momentum, _) = self.motion.masses.legendre(arena, x_dot);
-        let results = momentum
-            .into_iter()
-            .zip(1..)
-            .map(|(p, i): (Polynomial, usize)| (Quantity::LinearMomentum.at([i]), p));
-        let momentum = Batch { shared: definitions, results: results.collect(), ..Batch::default() };
+        let results = numbered(Quantity::LinearMomentum, momentum).collect();
+        let momentum = Batch { shared: definitions, results, ..Batch::default() };
         let named = |s: &Expr| (arena.symbol_of(*s), Polynomial::atom(*s));
         Some([momentum, Batch { shared, results: x_dot.iter().map(named).collect(), ..Batch::default() }])
     }
@@ -211,11 +208,7 @@ fn given(arena: &Arena, mut batch: Batch, quantities: &[Expr]) -> Batch {
 /// Adds to the first result a value with what it shares.
 fn join(batch: &mut Batch, value: &Polynomial, shared: Definitions) {
     batch.results[0].1.add_scaled(value, &Rational::ONE);
-    for (symbol, definition) in shared {
-        if !batch.shared.iter().any(|(known, _)| *known == symbol) {
-            batch.shared.push((symbol, definition));
-        }
-    }
+    share(&mut batch.shared, shared);
 }
 
 fn result(of: Quantity, polynomial: Polynomial) -> Batch {
@@ -223,7 +216,6 @@ fn result(of: Quantity, polynomial: Polynomial) -> Batch {
 }
 
 fn matrix_batch(arena: &Arena, names: &Matrix, values: &[Vec<Polynomial>]) -> Batch {
-    let name = |s: &Expr| arena.symbol_of(*s);
-    let results = names.0.concat().iter().map(name).zip(values.concat()).collect();
+    let results = arena.symbols_of(&names.0.concat()).into_iter().zip(values.concat()).collect();
     Batch { results, ..Batch::default() }
 }

@@ -2,9 +2,8 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::ring::upper;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Polynomial};
 use crate::ir::Program;
-use crate::mechanics::direction::Direction;
 use crate::mechanics::forces::Forces;
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Coefficient;
@@ -12,7 +11,7 @@ use crate::mechanics::term::Coefficient;
 use super::batch::{unbound, values};
 use super::metrics::{GivenMatrix, Preparation};
 use super::splitting::PrincipalProgram;
-use super::well_posed::{Condition, Factor, NumericBlock, Relation};
+use super::well_posed::{Condition, Factor, NumericBlock, Relation, eigenvalue};
 
 /// What `prepare()` computes and checks.
 pub struct Prepared {
@@ -77,22 +76,22 @@ pub(super) fn well_posed(conditions: Vec<Condition>) -> impl Iterator<Item = Ste
 /// What `prepare()` has to find not negative in the dissipation.
 pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
     let Some(dissipation) = &forces.dissipation else { return Vec::new() };
-    let (mut conditions, mut blocks) = (Vec::new(), Vec::new());
-    let mut known: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
+    let (mut listed, mut blocks) = (Vec::new(), Vec::new());
+    let mut list = |name: &'static str, directions: &'static str, value: Polynomial| {
+        let condition = (name, directions, value);
+        if !listed.contains(&condition) {
+            listed.push(condition);
+        }
+    };
     for part in &dissipation.parts {
         let isotropic = part.form.terms.iter().all(|term| matches!(term.value, Coefficient::Scalar(_)));
         for block in &part.hessian.blocks {
             match block.eigenvalue() {
                 Some(value) => {
-                    let (name, directions) = match block.basis[0].kind {
-                        Direction::Shear if isotropic => ("I + A", "symmetric traceless velocities (shear)"),
-                        Direction::Rotation if isotropic => ("I - A", "skew velocities (rotation)"),
-                        Direction::Dilatation if isotropic => {
-                            ("I + A + n B", "multiples of the identity (dilatation)")
-                        }
-                        _ => ("an eigenvalue of R", "one direction of the velocity"),
-                    };
-                    known.push((name, directions, value));
+                    let named = isotropic.then(|| eigenvalue(block.basis[0].kind)).flatten();
+                    let (name, directions) =
+                        named.unwrap_or(("an eigenvalue of R", "one direction of the velocity"));
+                    list(name, directions, value);
                 }
                 None if block.numbers().is_none() => {
                     blocks.push(Step::SemidefiniteForm(form_block(arena, &block.form, false)));
@@ -102,16 +101,15 @@ pub(super) fn damping(arena: &mut Arena, forces: &Forces) -> Vec<Step> {
         }
     }
     for (_, coefficient) in &dissipation.centre {
-        known.push(("the coefficient", "the velocity of the centre of mass", coefficient.clone()));
+        list("the coefficient", "the velocity of the centre of mass", coefficient.clone());
     }
-    let mut listed: Vec<(&'static str, &'static str, Polynomial)> = Vec::new();
-    for (name, directions, value) in known {
-        if !listed.contains(&(name, directions, value.clone())) {
-            let (factor, asked) = (Factor::Eigenvalue(name), (Relation::MomentumOfVelocity, false));
-            conditions.extend(Condition::of(arena, (factor, directions), asked, &value));
-            listed.push((name, directions, value));
-        }
-    }
+    let asked = (Relation::MomentumOfVelocity, false);
+    let conditions: Vec<Condition> = listed
+        .into_iter()
+        .filter_map(|(name, directions, value)| {
+            Condition::of(arena, (Factor::Eigenvalue(name), directions), asked, &value)
+        })
+        .collect();
     let conditions = (!conditions.is_empty()).then_some(Step::Semidefinite(conditions));
     conditions.into_iter().chain(blocks).collect()
 }
@@ -145,8 +143,7 @@ pub(super) fn coefficient_program(arena: &mut Arena, coefficients: &Constants) -
 pub(super) fn inverted(arena: &mut Arena, motion: &Motion, required: bool) -> Vec<Step> {
     let positive = required || motion.polynomial().is_some_and(|(kinetic, _)| kinetic.is_dalembert());
     let blocks = motion.numeric_blocks().iter().map(|block| {
-        let name = |s: Expr| arena.symbol_of(s);
-        let inverse = upper(block.form.len()).map(|(i, j)| name(block.inverse[i][j])).collect();
+        let inverse = upper(block.form.len()).map(|(i, j)| arena.symbol_of(block.inverse[i][j])).collect();
         NumericBlock { inverse, basis: block.basis.clone(), ..form_block(arena, &block.form, positive) }
     });
     blocks.map(Step::Inverse).collect()

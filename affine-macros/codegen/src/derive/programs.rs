@@ -5,14 +5,14 @@ use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::fuse::fuse;
 use crate::mechanics::body::Body;
-use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
+use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::equations::{Form, System};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::reduction::carried::Carried;
 use crate::optimise::{Batch, straight_line};
-use crate::symbol::{Asked, Capability, Quantity, Symbol};
+use crate::symbol::{Asked, Capability, Quantity};
 
 use super::batch::{batch, program as program_of, split_batch, unbound};
 use super::equations::Equations;
@@ -41,8 +41,8 @@ impl Body<'_> {
                 ways.push(split_batch(arena, chart, &system));
             }
         }
-        let time = self.time(arena);
-        Some(shortest(arena, chart, &ways, time, coefficients))
+        let inputs = self.inputs(arena, chart);
+        Some(shortest(arena, chart, &ways, &inputs, coefficients))
     }
 
     /// The reduction with the shortest equations, its programs, and those of what is asked for beside them.
@@ -73,19 +73,17 @@ fn shortest(
     arena: &mut Arena,
     chart: &Chart,
     ways: &[Batch],
-    time: Option<Expr>,
+    inputs: &[Expr],
     coefficients: &mut Constants,
 ) -> Equations {
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
     let program = shortest_program(arena, ways, coefficients, &|a| inputs.contains(&a));
-    let symbols = |list: &[Expr]| -> Vec<Symbol> { list.iter().map(|s| arena.symbol_of(*s)).collect() };
     let linear = chart.linear.map_or(Quantity::LinearMomentum, Linear::quantity);
+    let momenta: Vec<Expr> = chart.independent_momenta().into_iter().map(|z| chart.symbol(z)).collect();
     let groups = [
-        (Quantity::Position, symbols(&chart.x)),
-        (Quantity::Placement, symbols(&chart.phi.0.concat())),
-        (linear, symbols(&chart.p)),
-        (chart.momentum.quantity(), symbols(&independent_momenta(chart))),
+        (Quantity::Position, arena.symbols_of(&chart.x)),
+        (Quantity::Placement, arena.symbols_of(&chart.phi.0.concat())),
+        (linear, arena.symbols_of(&chart.p)),
+        (chart.momentum.quantity(), arena.symbols_of(&momenta)),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),
@@ -111,11 +109,6 @@ pub(super) fn shortest_program(
         .unwrap_or_else(|| (Program::default(), coefficients.clone()));
     *coefficients = chosen;
     program
-}
-
-fn independent_momenta(chart: &Chart) -> Vec<Expr> {
-    let momenta = chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..)));
-    momenta.map(|z| chart.symbol(z)).collect()
 }
 
 /// Entries of the affine momentum that a constraint makes linear in others.
@@ -195,8 +188,7 @@ fn shortest_reduction(
         ..Batch::default()
     };
     let trajectory = program_of(arena, &definitions, coefficients, &inputs);
-    let symbol = |s: &Expr| arena.symbol_of(*s);
-    let groups = reduction.states.iter().map(|(g, s)| (*g, s.iter().map(symbol).collect())).collect();
+    let groups = reduction.states.iter().map(|(group, of)| (*group, arena.symbols_of(of))).collect();
     let dependent = match reduction.conserved.affine {
         true => Program::default(),
         false => dependent(arena, &reduction.chart),

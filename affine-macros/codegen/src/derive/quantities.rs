@@ -1,7 +1,8 @@
 //! Quantities that are emitted when asked for.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::ring::{Square, multiple, pairs, product, scalar, table, transpose};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::ir::Program;
 use crate::mechanics::balance::{CENTRE, INTERNAL, Laws};
@@ -10,15 +11,14 @@ use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::metric::Definitions;
+use crate::mechanics::metric::{Definitions, share};
 use crate::mechanics::mixed::{self, Factorisation};
 use crate::mechanics::motion::Motion;
 use crate::mechanics::term::Frame;
 use crate::optimise::Batch;
 use crate::symbol::{Asked, Aspect, Capability, Factorised, Quantity, Symbol};
 
-use super::batch::{self, program};
-use super::components::Components;
+use super::batch::{self, numbered, program};
 
 /// Quantities that are emitted where they are asked for.
 pub struct Quantities {
@@ -50,8 +50,8 @@ pub struct Balance {
 
 /// The two sides of balance laws.
 pub struct BalancedQuantities {
-    /// Each quantity with its components.
-    pub quantities: Vec<(Quantity, Components)>,
+    /// Each quantity with the frame of its components.
+    pub quantities: Vec<(Quantity, Frame)>,
     /// Point -> their entries, one quantity after the other.
     pub program: Program,
 }
@@ -69,11 +69,11 @@ impl Body<'_> {
             true => Some(metric(arena, self.motion, coefficients)?),
             false => None,
         };
-        let time = self.time(arena);
+        let inputs = self.inputs(arena, chart);
         let acceleration = match asked.has(Capability::Acceleration) {
             true => {
                 let (system, _) = self.systems(arena, chart, self.potential)?.swap_remove(0);
-                Some(acceleration(arena, chart, &system, time, coefficients))
+                Some(acceleration(arena, &system, &inputs, coefficients))
             }
             false => None,
         };
@@ -87,7 +87,7 @@ impl Body<'_> {
                 let own =
                     self.motion.hamiltonian().filter(|_| self.motion.internal().all(Kinetic::is_dalembert));
                 let laws = Laws::new(arena, chart, (&kinetics, &added, own), &acting);
-                Some(balance(arena, chart, &laws, time, coefficients))
+                Some(balance(arena, &laws, &inputs, coefficients))
             }
             false => None,
         };
@@ -106,7 +106,7 @@ fn metric(arena: &mut Arena, motion: &Motion, coefficients: &mut Constants) -> O
     }
     let entries = joined(&centre, &internal);
     let inverse = inverse(arena, motion, (&shared, &centre, &internal))?;
-    let (size, results) = (entries.len(), numbered(&entries));
+    let (size, results) = (entries.len(), of_matrix(&entries));
     let entries = Batch { shared, results, ..Batch::default() }.pruned(arena);
     let phi = Matrix::symbols(arena, Quantity::Placement, dim).0.concat();
     let mut program = |batch: &Batch| program(arena, batch, coefficients, &phi);
@@ -157,45 +157,35 @@ fn inverse(
             (shared, matrix)
         }
     };
-    let fresh = definitions.into_iter().filter(|(s, _)| !defined.iter().any(|(known, _)| known == s));
-    let shared = defined.iter().cloned().chain(fresh).collect();
-    let results = numbered(&joined(&of_centre, &of_internal));
-    Some(Batch { shared, results, ..Batch::default() }.pruned(arena))
+    share(&mut defined, definitions);
+    let results = of_matrix(&joined(&of_centre, &of_internal));
+    Some(Batch { shared: defined, results, ..Batch::default() }.pruned(arena))
 }
 
 /// That of the internal motion from the inverse Legendre transformation in the energy's own frame, `d(phi_dot)_iA/dPi_Bj`:
 /// with `phi_dot = phi Oh`, `Sigma_hat = Pi phi` or `phi_dot = Om phi`, `Sigma = phi Pi` a polynomial in `phi`.
 fn slopes(chart: &Chart, h: &Hamiltonian) -> Square<Polynomial> {
-    let (n, phi) = (h.dim, &chart.phi.0);
-    let pairs = || pairs(n);
-    let slope = |i: usize, a: usize, b: usize, j: usize| -> Polynomial {
+    let (n, phi, own) = (h.dim, &chart.phi.0, h.slopes());
+    let own = |[i, a]: [usize; 2], [j, b]: [usize; 2]| &own[n * i + a][n * j + b];
+    table(n * n, |row, column| {
+        let ([i, a], [j, b]) = ([row / n, row % n], [column / n, column % n]);
+        let through = |slope: &Polynomial, factors| slope.mul(&Polynomial::monomial(factors));
         match h.frame {
-            Frame::Flat => h.velocity[i][a].derivative(h.momentum.0[b][j]),
-            Frame::Body => pairs()
-                .map(|(c, e)| {
-                    h.velocity[c][a].derivative(h.momentum.0[b][e]).mul(&pair(phi[i][c], phi[j][e]))
-                })
-                .sum(),
-            Frame::Space => pairs()
-                .map(|(k, l)| {
-                    h.velocity[i][k].derivative(h.momentum.0[l][j]).mul(&pair(phi[k][a], phi[l][b]))
-                })
-                .sum(),
+            Frame::Flat => own([i, a], [j, b]).clone(),
+            Frame::Body => pairs(n).map(|(c, d)| through(own([c, a], [d, b]), [phi[i][c], phi[j][d]])).sum(),
+            Frame::Space => pairs(n).map(|(k, l)| through(own([i, k], [j, l]), [phi[k][a], phi[l][b]])).sum(),
         }
-    };
-    pairs().map(|(i, a)| pairs().map(|(j, b)| slope(i, a, b, j)).collect()).collect()
+    })
 }
 
 /// That of a centre of mass with one mass: `1/m`, or `phi phi^T/m` where the body carries it.
 fn of_one_mass(chart: &Chart, frame: Option<Frame>, inverse_mass: &Polynomial) -> Square<Polynomial> {
-    let phi = &chart.phi.0;
-    table(chart.dim, |i, j| {
-        let form: Polynomial = match frame {
-            Some(Frame::Body) => phi[i].iter().zip(&phi[j]).map(|(left, right)| pair(*left, *right)).sum(),
-            _ => Polynomial::constant(Rational::from(i64::from(i == j))),
-        };
-        form.mul(inverse_mass)
-    })
+    let phi = chart.placement();
+    let form = match frame {
+        Some(Frame::Body) => product(&phi, &transpose(&phi)),
+        _ => scalar(chart.dim, &Polynomial::constant(Rational::ONE)),
+    };
+    multiple(&form, inverse_mass)
 }
 
 /// The columns of the inverse of a matrix that depends on the placement, numbered from `first` on: the solutions for unit
@@ -211,74 +201,45 @@ fn columns(
     let column = |unit: usize| {
         let mut momenta = vec![Polynomial::zero(); size];
         momenta[unit] = Polynomial::constant(Rational::ONE);
-        let column = first + unit;
-        let solution: Vec<Expr> =
-            (1..=size).map(|row| arena.symbol(Quantity::InverseColumn.at([row, column]))).collect();
-        factorisation.solve(arena, Factorised::Column(column), &momenta, &solution, shared);
-        solution.into_iter().map(Polynomial::atom).collect()
+        Polynomial::vector(&factorisation.column(arena, first + unit, &momenta, shared))
     };
     Some((0..size).map(column).collect())
 }
 
-fn pair(left: Expr, right: Expr) -> Polynomial {
-    Polynomial::monomial([left, right])
-}
-
-fn numbered(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
-    let name = |(row, values): (usize, &Vec<Polynomial>)| {
-        let entry = |(column, value): (usize, &Polynomial)| {
-            (Quantity::MatrixEntry.at([row + 1, column + 1]), value.clone())
-        };
-        values.iter().enumerate().map(entry).collect::<Vec<_>>()
-    };
-    entries.iter().enumerate().flat_map(name).collect()
+fn of_matrix(entries: &[Vec<Polynomial>]) -> Vec<(Symbol, Polynomial)> {
+    let named = |(i, j): (usize, usize)| (Quantity::MatrixEntry.at([i + 1, j + 1]), entries[i][j].clone());
+    pairs(entries.len()).map(named).collect()
 }
 
 /// `x'' = sum over z of dx'/dz z'`, by the chain rule through every quantity on the way to `x'`.
 fn acceleration(
     arena: &mut Arena,
-    chart: &Chart,
     system: &System,
-    time: Option<Expr>,
+    inputs: &[Expr],
     coefficients: &mut Constants,
 ) -> Program {
     let mut flow = Flow { system, slopes: Vec::new(), definitions: Definitions::new() };
     let velocities = system.rates.iter().filter(|(z, _, _)| matches!(z, Coordinate::X(_)));
-    let results = velocities
-        .enumerate()
-        .map(|(i, (_, _, rate))| (Quantity::Acceleration.at([i + 1]), flow.along(arena, rate)))
-        .collect();
+    let accelerations = velocities.map(|(_, _, rate)| flow.along(arena, rate));
+    let results = numbered(Quantity::Acceleration, accelerations).collect();
     let shared = system.shared.iter().cloned().chain(flow.definitions).collect();
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
     let batch = Batch { shared, results, kernels: system.kernels.clone() }.pruned(arena);
-    program(arena, &batch, coefficients, &inputs)
+    program(arena, &batch, coefficients, inputs)
 }
 
 /// The quantities of the balance laws, entry after entry.
-fn balance(
-    arena: &mut Arena,
-    chart: &Chart,
-    laws: &Laws,
-    time: Option<Expr>,
-    coefficients: &mut Constants,
-) -> Balance {
-    let mut inputs = chart.symbols();
-    inputs.extend(time);
+fn balance(arena: &mut Arena, laws: &Laws, inputs: &[Expr], coefficients: &mut Constants) -> Balance {
     let mut program = |results: Vec<(Symbol, Polynomial)>| {
         let (shared, kernels) = (laws.shared.clone(), laws.kernels.clone());
         let batch = Batch { shared, kernels, results }.pruned(arena);
-        batch::program(arena, &batch, coefficients, &inputs)
-    };
-    let numbered = |(of, entries): (Quantity, Vec<Polynomial>)| -> Vec<(Symbol, Polynomial)> {
-        entries.into_iter().enumerate().map(|(k, entry)| (of.at([k + 1]), entry)).collect()
+        batch::program(arena, &batch, coefficients, inputs)
     };
     let internal = INTERNAL.iter().zip(&laws.internal);
-    let internal = internal.flat_map(|((of, _), matrix)| numbered((*of, matrix.concat()))).collect();
+    let internal = internal.flat_map(|((of, _), matrix)| numbered(*of, matrix.concat())).collect();
     let centre = CENTRE.iter().zip(&laws.centre);
-    let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered((*of, vector.clone()))).collect();
+    let centre: Vec<_> = centre.flat_map(|((of, _), vector)| numbered(*of, vector.clone())).collect();
     let mut balanced = |quantities: &[(Quantity, Frame)], results| BalancedQuantities {
-        quantities: quantities.iter().map(|(of, frame)| (*of, (*frame).into())).collect(),
+        quantities: quantities.to_vec(),
         program: program(results),
     };
     Balance {
@@ -320,11 +281,11 @@ impl Flow<'_> {
 
     /// The derivative of a symbol: a rate of the system, that of a definition, or zero for a parameter.
     fn slope(&mut self, arena: &mut Arena, symbol: Expr) -> Polynomial {
-        if let Some((_, known)) = self.slopes.iter().find(|(s, _)| *s == symbol) {
-            return known.clone();
+        if let Some(known) = listed(&self.slopes)(symbol) {
+            return known;
         }
         let rate = self.system.rates.iter().find(|(_, s, _)| *s == symbol).map(|(_, _, rate)| rate.clone());
-        let definition = self.system.shared.iter().find(|(s, _)| *s == symbol).map(|(_, p)| p.clone());
+        let definition = listed(&self.system.shared)(symbol);
         let value = match (rate, definition) {
             (Some(rate), _) => rate,
             (None, Some(definition)) => self.along(arena, &definition),

@@ -4,7 +4,6 @@ use crate::algebra::Arena;
 use crate::algebra::bind::Constants;
 use crate::ir::Program;
 use crate::mechanics::body::Body;
-use crate::mechanics::equations::System;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::reduction::Reduction;
 use crate::mechanics::second_order::second_order;
@@ -35,11 +34,7 @@ impl Halves {
         let halves = second_order(arena, (h, body), reduction)?;
         let mut varying = reduction.symbols();
         varying.extend(body.time(arena));
-        let names = |arena: &Arena, system: &System| -> Vec<Symbol> {
-            let symbols = system.rates.iter().map(|(_, symbol, _)| *symbol);
-            symbols.map(|s| arena.symbol_of(s)).collect()
-        };
-        let (positions, momenta) = (names(arena, &halves.positions), names(arena, &halves.momenta));
+        let [positions, momenta] = [&halves.positions, &halves.momenta].map(|half| half.moved(arena));
         let [velocity, force] = [&halves.positions, &halves.momenta].map(|system| {
             let rates = batch(arena, system);
             program(arena, &rates, constants, &varying)

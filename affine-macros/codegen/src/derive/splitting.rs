@@ -1,6 +1,8 @@
 //! The flows of the pieces as programs over the reduced state.
 
 use crate::algebra::bind::Constants;
+use crate::algebra::ring::upper;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::mechanics::body::Body;
@@ -10,7 +12,7 @@ use crate::mechanics::splitting::{Flow, Principal, splitting};
 use crate::optimise::Batch;
 use crate::symbol::{Aspect, Quantity, Symbol};
 
-use super::batch::{self, batch, values};
+use super::batch::{self, batch, numbered, values};
 use crate::algebra::passage::DilatationalMotion;
 
 /// The pieces of a reduced motion.
@@ -114,11 +116,9 @@ fn written(
     varying: &[Expr],
     constants: &mut Constants,
 ) -> FlowProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_of(s);
     let mut program = |arena: &mut Arena, batch: &Batch| batch::program(arena, batch, constants, varying);
     let table = |arena: &Arena, symbols: &[Expr]| -> Vec<Vec<Symbol>> {
-        let rows = symbols.chunks(reduction.chart.dim);
-        rows.map(|row| row.iter().map(|s| name(arena, *s)).collect()).collect()
+        symbols.chunks(reduction.chart.dim).map(|row| arena.symbols_of(row)).collect()
     };
     let placement = |arena: &Arena| {
         let placement = reduction
@@ -130,8 +130,7 @@ fn written(
     let momentum = |arena: &Arena| table(arena, &reduction.chart.m.0.concat());
     match flow {
         Flow::Shift(system) | Flow::Rise(system) => {
-            let moved = system.rates.iter().map(|(_, symbol, _)| name(arena, *symbol)).collect();
-            let rates = batch(arena, system);
+            let (moved, rates) = (system.moved(arena), batch(arena, system));
             let program = program(arena, &rates);
             match flow {
                 Flow::Shift(_) => FlowProgram::Shift { moved, program },
@@ -145,13 +144,9 @@ fn written(
             let mut results: Vec<(Symbol, Polynomial)> = results.collect();
             if *turns_momentum {
                 let dependent = reduction.chart.dependent();
-                let value = |s: Expr| {
-                    dependent.iter().find(|(symbol, _)| *symbol == s).map(|(_, value)| value.clone())
-                };
+                let value = |s: Expr| listed(&dependent)(s).unwrap_or_else(|| Polynomial::atom(s));
                 let entries = reduction.chart.m.0.concat().into_iter();
-                results.extend(entries.map(|s| {
-                    (name(arena, s).seen(Aspect::Turned), value(s).unwrap_or_else(|| Polynomial::atom(s)))
-                }));
+                results.extend(entries.map(|s| (arena.symbol_of(s).seen(Aspect::Turned), value(s))));
             }
             let (placement, momentum) = (placement(arena), turns_momentum.then(|| momentum(arena)));
             let program = program(arena, &Batch { shared: shared.clone(), results, ..Batch::default() });
@@ -159,8 +154,7 @@ fn written(
         }
         Flow::Dilatation { separation, spin } => {
             let mut batch = separation.batch();
-            let entries = spin.iter().enumerate();
-            batch.results.extend(entries.map(|(a, entry)| (Quantity::Spin.at([a + 1]), entry.clone())));
+            batch.results.extend(numbered(Quantity::Spin, spin.iter().cloned()));
             let program = program(arena, &batch);
             let (placement, momentum) = (placement(arena), momentum(arena));
             FlowProgram::Dilatation { placement, momentum, motion: (&separation.slope).into(), program }
@@ -169,10 +163,7 @@ fn written(
 }
 
 fn principal(arena: &mut Arena, form: &Principal) -> PrincipalProgram {
-    let size = form.values.len();
-    let upper = (0..size).flat_map(|i| (i..size).map(move |j| form.form[i][j].clone()));
-    let program = values(arena, upper);
-    let names = |list: &[Expr]| list.iter().map(|s| arena.symbol_of(*s)).collect();
-    let vectors = form.vectors.iter().map(|vector| names(vector)).collect();
-    PrincipalProgram { program, values: names(&form.values), vectors }
+    let program = values(arena, upper(form.values.len()).map(|(i, j)| form.form[i][j].clone()));
+    let vectors = form.vectors.iter().map(|vector| arena.symbols_of(vector)).collect();
+    PrincipalProgram { program, values: arena.symbols_of(&form.values), vectors }
 }

@@ -5,6 +5,7 @@
 
 use crate::algebra::bind::Constants;
 use crate::algebra::evaluate::evaluate;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr};
 use crate::ir::Program;
 use crate::ir::rounding::Rounding;
@@ -219,10 +220,9 @@ impl<'a> Run<'a> {
             let place = stretched([10.0_f64.powi(power); 3]);
             let wanted = other.rates(&place, n);
             let found = self.rates(&place, n);
-            let of =
-                |symbol: &Symbol| found.iter().find(|(known, _)| known == symbol).map(|(_, value)| *value);
+            let pairs = wanted.into_iter();
             let pairs: Vec<(f64, f64)> =
-                wanted.iter().filter_map(|(symbol, value)| Some((*value, of(symbol)?))).collect();
+                pairs.filter_map(|(symbol, value)| Some((value, listed(&found)(symbol)?))).collect();
             let is_near = |(value, own): &(f64, f64)| (value - own).abs() <= NEAR * value.abs();
             !pairs.iter().all(|(value, _)| value.is_finite()) || pairs.iter().all(is_near)
         })
@@ -238,8 +238,8 @@ impl<'a> Run<'a> {
                 Some(Quantity::InverseDilatation) => Some(1.0 / root),
                 Some(Quantity::MeanLogStretch) => Some(root.ln()),
                 _ => {
-                    let known = self.parameters.iter().find(|(known, _)| known == symbol);
-                    known.map_or_else(|| Some(sample(&symbol.to_string())), |(_, value)| Some(*value))
+                    let known = listed(&self.parameters)(symbol.clone());
+                    known.or_else(|| Some(sample(&symbol.to_string())))
                 }
             },
         };
@@ -287,7 +287,7 @@ fn loss(program: &Program, place: &Place, n: usize, parameters: &[(Symbol, f64)]
         Some(Quantity::Placement) => entry(symbol).map(|(i, a)| place.placement(n, i, a)),
         Some(Quantity::Time | Quantity::Position) => Some(sample(&symbol.to_string())),
         // What a call provides has no value here.
-        _ => parameters.iter().find(|(known, _)| known == symbol).map(|(_, value)| *value),
+        _ => listed(parameters)(symbol.clone()),
     };
     let norm = |list: &[f64]| list.iter().map(|value| value * value).sum::<f64>().sqrt();
     [false, true].map(|near| {

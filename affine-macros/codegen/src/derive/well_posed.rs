@@ -2,6 +2,7 @@
 
 use crate::algebra::Rational;
 use crate::ir::Program;
+use crate::mechanics::direction::Direction;
 use crate::symbol::Symbol;
 
 /// A quantity that must not vanish once the fields have values.
@@ -33,6 +34,16 @@ impl Factor {
         match self {
             Self::Eigenvalue(name) | Self::Mass(name) => name,
         }
+    }
+}
+
+/// The eigenvalue of an isotropic form on an invariant subspace of velocities, and what these are.
+pub(super) fn eigenvalue(on: Direction) -> Option<(&'static str, &'static str)> {
+    match on {
+        Direction::Shear => Some(("I + A", "symmetric traceless velocities (shear)")),
+        Direction::Rotation => Some(("I - A", "skew velocities (rotation)")),
+        Direction::Dilatation => Some(("I + A + n B", "multiples of the identity (dilatation)")),
+        Direction::Entry => None,
     }
 }
 

@@ -175,7 +175,7 @@ impl Written for Step {
 impl Written for GivenSource {
     fn visit<'m>(&'m self, each: &mut dyn FnMut(Part<'m>)) {
         match self {
-            Self::Form { entries, components: _, tensor: _ } => entries.visit(each),
+            Self::Form { entries, frame: _, tensor: _ } => entries.visit(each),
             Self::SpaceInverse | Self::Body => {}
         }
     }

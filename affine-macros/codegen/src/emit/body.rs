@@ -1,6 +1,6 @@
 //! Straight-line programs as Rust: one `let` for what has a name or is read twice, everything else in place.
 
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
@@ -8,6 +8,7 @@ use crate::ir::call::Call;
 use crate::ir::naming::Namer;
 use crate::ir::{Op, Program, Value};
 
+use super::expression::{Expression, Strength, at_least, difference, negative, product, quotient, sum};
 use super::kernel;
 use super::number::{Number, name_of};
 use super::pattern::ident;
@@ -26,15 +27,6 @@ impl Body {
     pub(super) fn result(&self) -> TokenStream {
         self.results.iter().cloned().collect()
     }
-}
-
-/// Binding strength of an expression's outermost operator.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Strength {
-    Sum,
-    Product,
-    Sign,
-    Atom,
 }
 
 /// Writes a program down.
@@ -146,22 +138,19 @@ impl Writer<'_> {
         }
     }
 
-    fn expression(&self, value: Value) -> (TokenStream, Strength) {
+    fn expression(&self, value: Value) -> Expression {
         if let Some(name) = self.bound.get(&value) {
             return (quote!(#name), Strength::Atom);
         }
         match &self.program.steps[value] {
             Op::Input(symbol) => ((self.scope.input)(symbol), Strength::Atom),
             Op::Constant(number) => (self.scope.number.exact(number), Strength::Atom),
-            Op::Neg(a) => {
-                let a = self.at_least(*a, Strength::Sign);
-                (quote!(-#a), Strength::Sign)
-            }
+            Op::Neg(a) => negative(self.expression(*a)),
             Op::Call(function, a) => (self.applied(function.name(), *a), Strength::Atom),
-            Op::Add(a, b) => self.infix(*a, *b, quote!(+), Strength::Sum, Strength::Sum),
-            Op::Sub(a, b) => self.infix(*a, *b, inner(quote!(-)), Strength::Sum, Strength::Product),
-            Op::Mul(a, b) => self.infix(*a, *b, inner(quote!(*)), Strength::Product, Strength::Product),
-            Op::Div(a, b) => self.infix(*a, *b, quote!(/), Strength::Product, Strength::Sign),
+            Op::Add(a, b) => sum(self.expression(*a), self.expression(*b)),
+            Op::Sub(a, b) => difference(self.expression(*a), self.expression(*b)),
+            Op::Mul(a, b) => product(self.expression(*a), self.expression(*b)),
+            Op::Div(a, b) => quotient(self.expression(*a), self.expression(*b)),
             Op::MulAdd(a, b, c) if matches!(self.scope.number, Number::Double) => {
                 let [a, b] = [*a, *b].map(|factor| self.at_least(factor, Strength::Product));
                 let c = self.expression(*c).0;
@@ -195,31 +184,7 @@ impl Writer<'_> {
         }
     }
 
-    fn infix(
-        &self,
-        a: Value,
-        b: Value,
-        sign: TokenStream,
-        strength: Strength,
-        right: Strength,
-    ) -> (TokenStream, Strength) {
-        let (a, b) = (self.at_least(a, strength), self.at_least(b, right));
-        (quote!(#a #sign #b), strength)
-    }
-
     fn at_least(&self, value: Value, least: Strength) -> TokenStream {
-        let (tokens, strength) = self.expression(value);
-        if strength < least { quote!((#tokens)) } else { tokens }
+        at_least(self.expression(value), least)
     }
-}
-
-/// An operator that stands inside the macro. Where all tokens of an array have the place of the attribute, linters look for
-/// the missing comma of `[a -b]` between the lines of the attribute.
-pub(super) fn inner(operator: TokenStream) -> TokenStream {
-    let placed = |token: TokenTree| {
-        let mut token = token;
-        token.set_span(Span::mixed_site());
-        token
-    };
-    operator.into_iter().map(placed).collect()
 }

@@ -4,8 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::algebra::passage::Word;
-use crate::derive::Components;
-use crate::symbol::Quantity;
+use crate::symbol::{Frame, Quantity};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -18,7 +17,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
     let drifts = context.model.dynamics.passage.constants.iter().any(|constant| constant.name == Word::Drift);
     let f64 = quote!(#rt::f64);
     let none = quote!(::core::option::Option::None);
-    let Some((components, needs_rest)) = context.model.geodesics() else { return TokenStream::new() };
+    let Some((_, needs_rest)) = context.model.dynamics.closed_form else { return TokenStream::new() };
     let rest = needs_rest.then(|| {
         quote! {
             if #rt::Phase::p(point) != #rt::Vector::<#n>::zeros() {
@@ -39,7 +38,7 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             const IS_GEODESIC: ::core::primitive::bool = true;
         )
     });
-    let straight = components == Components::TwoPoint;
+    let straight = context.model.frame == Frame::Flat;
     let spin = own_spin(context);
     let typed = context.bases(Some(&f64), Coefficients::Own);
     let velocity = match context.model.metrics {
@@ -72,14 +71,14 @@ pub(super) fn geodesic(context: &Context) -> TokenStream {
             #rt::Phase::from_orthonormal(&geodesic.point(t, &start), &#typed)
         }
     });
-    let motion = match (components, &context.model.point.isotropic) {
-        (Components::TwoPoint, _) | (_, None) => quote! {
+    let motion = match (context.model.frame, &context.model.point.isotropic) {
+        (Frame::Flat, _) | (_, None) => quote! {
             let motion = #rt::Orbit::straight(#velocity.phi_dot);
         },
-        (components, Some(program)) => {
+        (frame, Some(program)) => {
             let Body { lets, results } = context.double(program);
-            let make = match components {
-                Components::Comoving => quote!(body),
+            let make = match frame {
+                Frame::Body => quote!(body),
                 _ => quote!(space),
             };
             let (quadratic, cubic) = results.split_at(3.min(results.len()));

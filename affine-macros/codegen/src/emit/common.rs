@@ -12,7 +12,7 @@ use crate::symbol::{Quantity, Symbol};
 use super::body::Body;
 use super::names::Names;
 use super::number::number;
-use super::pattern::{bound_entries, entries, leading_pattern, list, named, reads, table};
+use super::pattern::{bound_entries, entries, leading_pattern, list, named, reads, table, together};
 
 /// The function that gives the velocity of a momentum, and after it the intermediate results that other methods go on with.
 pub(super) struct Function {
@@ -88,7 +88,7 @@ impl Function {
         let used = rest.inputs();
         let is_read = |name: &Symbol, rows: &Rows| used.contains(name) || reads(&used, &rows.concat());
         let result = |name: &Symbol, rows: &Rows| if is_read(name, rows) { named(name) } else { quote!(_) };
-        let results = together(self.results.each(result, |numbers| leading_pattern(numbers, &used)));
+        let results = together(&self.results.each(result, |numbers| leading_pattern(numbers, &used)));
         let entries = self.results.matrices.iter().map(|(name, rows)| bound_entries(name, rows, &used));
         Some((quote!(let #results = velocity_of_momentum(#(#arguments),*); #(#entries)*), rest))
     }
@@ -123,7 +123,7 @@ impl Function {
         let parameters = self
             .arguments
             .each(|name, own| parameter(named(name), rows(own)), |own| parameter(list(own), numbers(own)));
-        let given = together(self.results.each(|_, own| rows(own), numbers));
+        let given = together(&self.results.each(|_, own| rows(own), numbers));
         let used = self.program().inputs();
         let bound = self.arguments.matrices.iter().map(|(name, rows)| bound_entries(name, rows, &used));
         let values: FxHashMap<&Symbol, &TokenStream> = self.program().results().zip(results).collect();
@@ -131,7 +131,7 @@ impl Function {
             let own = own.iter().filter_map(|symbol| values.get(symbol));
             quote!([#(#own),*])
         };
-        let results = together(self.results.each(
+        let results = together(&self.results.each(
             |_, rows| {
                 let rows = rows.iter().map(|row| list(row));
                 quote!([#(#rows),*])
@@ -148,13 +148,5 @@ impl Function {
                 #results
             }
         }
-    }
-}
-
-/// One by itself, several as a tuple.
-fn together(parts: Vec<TokenStream>) -> TokenStream {
-    match parts.as_slice() {
-        [one] => one.clone(),
-        several => quote!((#(#several),*)),
     }
 }

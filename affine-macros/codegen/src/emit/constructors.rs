@@ -3,15 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, VelocitySide};
+use crate::derive::VelocitySide;
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::number::Number;
 use super::pattern::{ident, in_rows};
-use super::point::{Moving, moving, wrapper};
+use super::point::{Moving, moving, phase_point, wrapper};
 use super::{mixed, quantities, refused};
 
 /// `at_momentum` and `at_velocity`.
@@ -134,9 +134,9 @@ struct Confinement {
 
 fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
     let rt = &context.names.rt;
-    let free = mixed::regular(context, quote!(#rt::phase_point(phi, spin, #centre)));
+    let point = mixed::regular(context, phase_point(context, &quote!(spin), centre));
     let Some(group) = context.constraint() else {
-        return Confinement { off: TokenStream::new(), tangent: TokenStream::new(), point: free };
+        return Confinement { off: TokenStream::new(), tangent: TokenStream::new(), point };
     };
     let tangent = quote! {
         #rt::on_the_group(#group, &phi)?;
@@ -146,7 +146,6 @@ fn confinement(context: &Context, centre: &TokenStream) -> Confinement {
         ///
         /// `OffConstraint` where placement, velocity or momentum violates the constraint by more than rounding.
     };
-    let point = mixed::regular(context, quote!(#rt::confined_point(#group, phi, spin, #centre)));
     Confinement { off, tangent, point }
 }
 
@@ -171,15 +170,15 @@ fn legendre(context: &Context, program: &Program) -> TokenStream {
         };
         sum = if sum.is_empty() { summand } else { quote!(#sum + #summand) };
     }
-    let wrapper = wrapper(context, context.model.spin());
+    let wrapper = wrapper(context, context.model.frame);
     quote!(#moving #lets #momenta let spin = #wrapper(#sum);)
 }
 
 /// `p = m x_dot` or `p = m C x_dot`, (4.7).
 fn momentum_of_centre(context: &Context) -> TokenStream {
     let Some(program) = &context.model.point.mass else { return mixed::momentum_of_centre(context) };
-    let velocity = match context.model.centre() {
-        Some(Components::Comoving) => quote!(phi_inverse.tr_mul(&(phi_inverse * x_dot))),
+    let velocity = match context.model.translation {
+        Some(Frame::Body) => quote!(phi_inverse.tr_mul(&(phi_inverse * x_dot))),
         _ => quote!(x_dot),
     };
     let (lets, p) = context.times(velocity, (program, Quantity::Mass), Number::Double);

@@ -3,14 +3,14 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use crate::derive::{ChangeOfBases, Components, Equations, Model};
+use crate::derive::{ChangeOfBases, Equations, Model};
 use crate::ir::{Op, Program};
 use crate::spec::{Capability, Custom, Role, Spec};
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::{Body, body};
 use super::common::Function;
-use super::names::Names;
+use super::names::{Names, variant};
 use super::number::{Number, number};
 use super::pattern::{ident, named};
 use super::scope::Scope;
@@ -52,10 +52,10 @@ impl Context<'_> {
 
     pub(super) fn frame(&self) -> TokenStream {
         let rt = &self.names.rt;
-        match self.model.spin() {
-            Components::Comoving => quote!(#rt::Body),
-            Components::Spatial => quote!(#rt::Space),
-            Components::TwoPoint => quote!(#rt::Canonical),
+        match self.model.frame {
+            Frame::Body => quote!(#rt::Body),
+            Frame::Space => quote!(#rt::Space),
+            Frame::Flat => quote!(#rt::Canonical),
         }
     }
 
@@ -71,8 +71,7 @@ impl Context<'_> {
     /// The constraint, as an expression.
     pub(super) fn constraint(&self) -> Option<TokenStream> {
         let rt = &self.names.rt;
-        let group = self.model.constraint?;
-        let group = format_ident!("{}", format!("{group:?}"));
+        let group = variant(self.model.constraint?);
         Some(quote!(#rt::Constraint::#group))
     }
 

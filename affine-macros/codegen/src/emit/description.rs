@@ -1,7 +1,5 @@
 //! What was derived, as rustdoc and as a constant.
 
-use std::fmt::Debug;
-
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -11,6 +9,7 @@ use crate::ir::count::Operations;
 use super::context::Context;
 use super::domain;
 use super::groups::groups;
+use super::names::variant;
 use super::number::number;
 
 /// Documentation below the user's own, line by line.
@@ -101,14 +100,13 @@ fn listed(conserved: &Conserved) -> String {
 /// What is conserved as expressions.
 fn conserved(context: &Context, Conserved { whole, components }: &Conserved) -> TokenStream {
     let rt = &context.names.rt;
-    let name = |candidate: &dyn Debug| format_ident!("{}", format!("{candidate:?}"));
     let whole = whole.iter().map(|candidate| {
-        let name = name(candidate);
+        let name = variant(candidate);
         quote!(#rt::Conserved::#name)
     });
     let components = components.iter().map(|Component { symbol, entries }| {
         let terms = entries.iter().map(|entry| {
-            let (factor, of) = (Literal::i64_unsuffixed(entry.factor), name(&entry.of));
+            let (factor, of) = (Literal::i64_unsuffixed(entry.factor), variant(entry.of));
             let (row, column) = (number(entry.row), number(entry.column));
             quote!(#rt::Entry { factor: #factor, of: #rt::Conserved::#of, row: #row, column: #column })
         });
@@ -181,7 +179,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         formula(context, &formulas.kinetic_energy.text, formulas.kinetic_energy.latex.as_deref());
     let hamiltonian = formula(context, &formulas.hamiltonian.text, formulas.hamiltonian.latex.as_deref());
     let left_out = formulas.left_out.iter().map(|left_out| {
-        let (what, scope) = (&left_out.what, format_ident!("{}", format!("{:?}", left_out.scope)));
+        let (what, scope) = (&left_out.what, variant(left_out.scope));
         quote!(#rt::Scope::#scope.without(#what))
     });
     let both = [

@@ -3,10 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
-use crate::derive::{Domain, Sign, SignedArgument};
+use crate::derive::Domain;
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
+use super::names::variant;
 use super::number::Number;
 use super::pattern::time;
 use super::point::at_point;
@@ -14,13 +15,9 @@ use super::point::at_point;
 /// The functions of the state that keep their sign, in the description of the model.
 pub(super) fn guards(context: &Context) -> Vec<TokenStream> {
     let rt = &context.names.rt;
-    let arguments = context.model.point.domain.iter().flat_map(Domain::arguments);
-    let guards = arguments.map(|SignedArgument { part, argument, sign }| {
-        let bound = match sign {
-            Sign::Positive => quote!(Positive),
-            Sign::NotNegative => quote!(NotNegative),
-            Sign::NotZero => quote!(NotZero),
-        };
+    let guards = context.model.point.domain.iter().flat_map(Domain::signed);
+    let guards = guards.map(|guard| {
+        let (part, argument, bound) = (&guard.part, &guard.argument, variant(guard.bound));
         quote!(#rt::Guard { part: #part, argument: #argument, bound: #rt::Bound::#bound })
     });
     guards.collect()

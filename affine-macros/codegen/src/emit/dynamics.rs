@@ -1,13 +1,11 @@
 //! Energies, velocities and Hamilton's equations.
 
-use std::slice;
-
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, VelocitySide};
+use crate::derive::VelocitySide;
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -39,16 +37,16 @@ fn velocity(context: &Context) -> TokenStream {
         entries => in_rows(entries, context.model.dim),
     };
     let velocity = quote!(#rt::matrix(#rows));
-    let phi_dot = match context.model.spin() {
-        Components::Comoving => quote!(#rt::Phase::phi(point) * #velocity),
-        Components::Spatial => quote!(#velocity * #rt::Phase::phi(point)),
-        Components::TwoPoint => velocity,
+    let phi_dot = match context.model.frame {
+        Frame::Body => quote!(#rt::Phase::phi(point) * #velocity),
+        Frame::Space => quote!(#velocity * #rt::Phase::phi(point)),
+        Frame::Flat => velocity,
     };
-    let (mass, x_dot) = match (&context.model.point.mass, context.model.centre()) {
+    let (mass, x_dot) = match (&context.model.point.mass, context.model.translation) {
         (None, Some(_)) => mixed::velocity_of_centre(context),
-        (Some(program), Some(components)) => {
-            let momentum = match components {
-                Components::Comoving => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
+        (Some(program), Some(frame)) => {
+            let momentum = match frame {
+                Frame::Body => quote!(#rt::Phase::phi(point) * #rt::Phase::p_hat(point).0.0),
                 _ => quote!(#rt::Phase::p(point)),
             };
             context.times(momentum, (program, Quantity::InverseMass), Number::Generic(t))
@@ -62,11 +60,10 @@ fn velocity(context: &Context) -> TokenStream {
         Some(_) => quote!(#bases.reversed().velocity(&#velocity)),
         None => velocity,
     };
-    let masses = context.model.point.mixed_masses.as_ref().map(|masses| masses.velocity.clone());
+    let masses = context.model.point.mixed_masses.as_ref().map(|masses| &masses.velocity);
     let factor = context.model.point.mass.as_ref().map(|mass| mass.only(&Quantity::InverseMass.into()));
-    let programs: Vec<Program> =
-        [context.model.point.velocity.clone()].into_iter().chain(factor.or(masses)).collect();
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", &programs);
+    let programs = [&context.model.point.velocity].into_iter().chain(factor.as_ref().or(masses));
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "velocity", programs);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter point: &Self::Point<#t>) -> #rt::Velocity<#n, #t> {
             #inward
@@ -97,8 +94,7 @@ fn kinetic_energy(context: &Context) -> TokenStream {
     let phi = if reads_phi { quote!(phi) } else { quote!(_phi) };
     let body = context.generic(program, Coefficients::Given);
     let (lets, energy) = (&body.lets, body.result());
-    let Evaluation { name, parameter } =
-        Evaluation::of_points(context, "kinetic_energy", slice::from_ref(program));
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "kinetic_energy", [program]);
     let bases = context.bases(Some(&quote!(#t)), Coefficients::Given);
     let inward = context.with_metrics(quote! {
         let velocity = &#bases.velocity(velocity);
@@ -133,26 +129,25 @@ fn hamiltonian(context: &Context) -> TokenStream {
     };
     let near = energy(program);
     let inward = context.inward(Coefficients::Given);
-    let programs: Vec<Program> =
-        [program].into_iter().chain(&context.model.point.hamiltonian_far_away).cloned().collect();
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", &programs);
-    let Some(program) = &context.model.point.hamiltonian_far_away else {
-        return quote! {
-            fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
-                #inward
-                #near
+    let programs = [program].into_iter().chain(&context.model.point.hamiltonian_far_away);
+    let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", programs);
+    let value = match &context.model.point.hamiltonian_far_away {
+        None => near,
+        Some(program) => {
+            let far_away = energy(program);
+            quote! {
+                if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
+                    #far_away
+                } else {
+                    #near
+                }
             }
-        };
+        }
     };
-    let far_away = energy(program);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
             #inward
-            if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
-                #far_away
-            } else {
-                #near
-            }
+            #value
         }
     }
 }
@@ -197,7 +192,7 @@ fn flat(context: &Context) -> TokenStream {
         quote!(#rt::vector(#components))
     };
     let own = matrix(context.model.frame.momentum());
-    let (phi, wrap) = (matrix(Quantity::Placement), wrapper(context, context.model.spin()));
+    let (phi, wrap) = (matrix(Quantity::Placement), wrapper(context, context.model.frame));
     let dependent = context.dependent(full);
     let p = match full.has(Quantity::ComovingLinearMomentum) {
         false => vector(Quantity::LinearMomentum),
@@ -248,8 +243,7 @@ fn hamilton_equations(context: &Context) -> TokenStream {
     let time = time(program);
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let inline = context.inline();
-    let Evaluation { name, parameter } =
-        Evaluation::of(context, "hamilton_equations", slice::from_ref(program));
+    let Evaluation { name, parameter } = Evaluation::of(context, "hamilton_equations", [program]);
     quote! {
         #inline
         fn #name<#t: #rt::Scalar>(&self, #parameter #time: #t, full: &Self::Full<#t>) -> Self::Full<#t> {

@@ -1,7 +1,5 @@
 //! Forces that no potential has.
 
-use std::slice;
-
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -18,13 +16,12 @@ pub(super) fn power(context: &Context) -> TokenStream {
     let time = time(program);
     let (body, reads) = at_point(context, program, Number::Generic(t));
     let (lets, power) = (&body.lets, body.result());
-    let programs = slice::from_ref(program);
     // The power of a potential of the time alone is that at every point.
     let (Evaluation { name, parameter }, point, inward) = match reads {
-        false => (Evaluation::of(context, "power", programs), quote!(_point), TokenStream::new()),
+        false => (Evaluation::of(context, "power", [program]), quote!(_point), TokenStream::new()),
         true => {
             let inward = context.inward(Coefficients::Given);
-            (Evaluation::of_points(context, "power", programs), quote!(point), inward)
+            (Evaluation::of_points(context, "power", [program]), quote!(point), inward)
         }
     };
     quote! {

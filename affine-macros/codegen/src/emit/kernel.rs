@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 
-use super::pattern::named;
+use super::pattern::{named, together};
 use super::scope::Scope;
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::symbol::Symbol;
@@ -56,11 +56,7 @@ pub(super) fn statement(
             }
         }
     };
-    let results: Vec<TokenStream> = results.collect();
-    let results = match results.as_slice() {
-        [one] => one.clone(),
-        several => quote!((#(#several),*)),
-    };
+    let results = together(&results.collect::<Vec<_>>());
     quote!(let #results = #function(#(#arguments),*);)
 }
 

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::{ChangeOfBases, Components, GivenMatrix, GivenSource, Step};
+use crate::derive::{ChangeOfBases, GivenMatrix, GivenSource, Step};
 
 use super::body::Body;
 use super::context::Context;
@@ -11,6 +11,7 @@ use super::fields::{matrix_name, over_fields};
 use super::number::{exact_table, number};
 use super::pattern::in_rows;
 use crate::ir::Program;
+use crate::symbol::Frame;
 
 /// The bases as a function of the scalar, where they are known, and the methods of the trait that tell of them.
 pub(super) fn bases(context: &Context) -> (TokenStream, TokenStream) {
@@ -87,19 +88,19 @@ pub(super) fn found(context: &Context, [space, body]: &[Program; 2]) -> TokenStr
 pub(super) fn rebased(context: &Context, matrix: &GivenMatrix) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
     let local = matrix_name(matrix.number);
-    let (entries, components, tensor) = match &matrix.source {
-        GivenSource::Form { entries, components, tensor } => (entries, *components, *tensor),
+    let (entries, frame, tensor) = match &matrix.source {
+        GivenSource::Form { entries, frame, tensor } => (entries, *frame, *tensor),
         GivenSource::SpaceInverse => return quote!(let #local = #rt::rows(&bases.space_inverse);),
         GivenSource::Body => return quote!(let #local = #rt::rows(&bases.body);),
     };
     let Body { lets, results } = over_fields(context.names, entries);
     let size = if tensor { context.model.dim.pow(2) } else { context.model.dim };
     let entries = in_rows(&results, size);
-    let value = match (tensor, components) {
-        (false, Components::Spatial) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
+    let value = match (tensor, frame) {
+        (false, Frame::Space) => quote!(#rt::rebased_inertia::<#n, _>(&bases.space, #entries)),
         (false, _) => quote!(#rt::rebased_inertia::<#n, _>(&bases.body, #entries)),
-        (true, components) => {
-            let (factors, size) = (factors(components), number(size));
+        (true, frame) => {
+            let (factors, size) = (factors(frame), number(size));
             quote!(#rt::rebased_tensor::<#n, #size, _>(#factors, #entries))
         }
     };
@@ -107,11 +108,11 @@ pub(super) fn rebased(context: &Context, matrix: &GivenMatrix) -> TokenStream {
 }
 
 /// `L` and `R` of `O = L O' R`, from an affine velocity in orthonormal bases to one in the user's.
-fn factors(components: Components) -> TokenStream {
-    match components {
-        Components::Comoving => quote!(&bases.body_inverse, &bases.body),
-        Components::Spatial => quote!(&bases.space_inverse, &bases.space),
-        Components::TwoPoint => quote!(&bases.space_inverse, &bases.body),
+fn factors(frame: Frame) -> TokenStream {
+    match frame {
+        Frame::Body => quote!(&bases.body_inverse, &bases.body),
+        Frame::Space => quote!(&bases.space_inverse, &bases.space),
+        Frame::Flat => quote!(&bases.space_inverse, &bases.body),
     }
 }
 
@@ -121,7 +122,7 @@ pub(super) fn told_in_given_bases(context: &Context, result: TokenStream) -> Tok
     let is_carried = |step: &Step| matches!(step, Step::Rebased(_));
     match context.model.prepared.steps.iter().any(is_carried) {
         true => {
-            let factors = factors(context.model.spin());
+            let factors = factors(context.model.frame);
             quote!(#rt::told_in_given_bases(#factors, #result))
         }
         false => result,

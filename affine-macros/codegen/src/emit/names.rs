@@ -1,5 +1,7 @@
 //! Every name that emitted code introduces, chosen against the user's own.
 
+use std::fmt::Debug;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -54,4 +56,9 @@ pub(super) fn runtime(renamed: Option<&syn::Path>) -> TokenStream {
         Some(path) => quote!(#path),
         None => quote!(::affine_runtime),
     }
+}
+
+/// The variant of the runtime that is called as one here.
+pub(super) fn variant(of: impl Debug) -> Ident {
+    format_ident!("{}", format!("{of:?}"))
 }

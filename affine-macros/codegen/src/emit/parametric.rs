@@ -18,16 +18,24 @@ pub(super) struct Evaluation {
 
 impl Evaluation {
     /// A method of this name in the model trait, which evaluates these programs.
-    pub(super) fn of(context: &Context, name: &str, programs: &[Program]) -> Self {
-        let read = programs.iter().flat_map(|program| program.symbols());
-        let calls = programs.iter().flat_map(|program| &program.calls);
-        let in_bases = context.has_prepared_bases() && calls.into_iter().any(|call| call.field().is_some());
-        let reads = read.into_iter().any(|symbol| coefficient_index(symbol).is_some());
-        Self::reading(context, name, in_bases || reads)
+    pub(super) fn of<'p>(
+        context: &Context,
+        name: &str,
+        programs: impl IntoIterator<Item = &'p Program>,
+    ) -> Self {
+        let reads = |program: &Program| {
+            let in_bases = context.has_prepared_bases() && calls_fields(program);
+            in_bases || program.symbols().any(|symbol| coefficient_index(symbol).is_some())
+        };
+        Self::reading(context, name, programs.into_iter().any(reads))
     }
 
     /// The same of a method that takes points, which stand in the user's bases.
-    pub(super) fn of_points(context: &Context, name: &str, programs: &[Program]) -> Self {
+    pub(super) fn of_points<'p>(
+        context: &Context,
+        name: &str,
+        programs: impl IntoIterator<Item = &'p Program>,
+    ) -> Self {
         match context.has_prepared_bases() {
             true => Self::reading(context, name, true),
             false => Self::of(context, name, programs),
@@ -157,8 +165,12 @@ fn with_own(context: &Context) -> TokenStream {
 
 /// Do reduced equations read coefficients, besides those of their trajectory? Fields that they call stand in the user's bases.
 pub(super) fn asks_again(context: &Context) -> bool {
-    let mut calls = context.model.dynamics.reduced.program.calls.iter();
-    context.has_prepared_bases() && calls.any(|call| call.field().is_some())
+    context.has_prepared_bases() && calls_fields(&context.model.dynamics.reduced.program)
+}
+
+/// Does a program call fields of the user's?
+pub(super) fn calls_fields(program: &Program) -> bool {
+    program.calls.iter().any(|call| call.field().is_some())
 }
 
 /// Name and first parameter of the reduced equations.

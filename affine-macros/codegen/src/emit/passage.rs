@@ -5,15 +5,14 @@ use quote::{format_ident, quote};
 
 use crate::algebra::fault::never_missing;
 use crate::algebra::passage::{DilatationalMotion, MatrixFunction, Statement, Tensor, Word};
-use crate::derive::Components;
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::number::Number;
-use super::pattern::{ident, identifiers, pattern, reads, table, table_pattern};
-use super::point::{projected, spin};
+use super::pattern::{ident, identifiers, pattern, reads, table};
+use super::point::{bind_matrix, projected, spin};
 
 /// Statements that bind what is read of them.
 pub(super) fn statements(context: &Context, statements: &[Statement], used: &[Symbol]) -> TokenStream {
@@ -44,11 +43,10 @@ fn statement(context: &Context, statement: &Statement, used: &[Symbol]) -> Token
             let (names, value) = (pattern(symbols, used), writer.reference(value));
             quote!(let #names = #rt::components(#value);)
         }
-        Statement::Entries(rows, value) if reads(used, &rows.concat()) => {
-            let (names, value) = (table_pattern(rows, used), writer.reference(value));
-            quote!(let #names = #rt::rows(#value);)
+        Statement::Components(..) => TokenStream::new(),
+        Statement::Entries(rows, value) => {
+            bind_matrix(context, rows, used, &writer.reference(value)).unwrap_or_default()
         }
-        Statement::Components(..) | Statement::Entries(..) => TokenStream::new(),
         Statement::Dependent => context.dependent(&context.model.dynamics.reduced),
     };
     let lets = writer.lets;
@@ -193,7 +191,7 @@ impl Writer<'_> {
             Quantity::LinearMomentum => quote!(#rt::Phase::p(point)),
             Quantity::ComovingLinearMomentum => quote!(#rt::Phase::p_hat(point).0.0),
             Quantity::TotalAffineMomentum => quote!(#rt::total_affine_momentum(point)),
-            spin_of => spin(self.context, components_of(spin_of)),
+            spin_of => spin(self.context, frame_of(spin_of)),
         }
     }
 
@@ -277,11 +275,11 @@ impl Writer<'_> {
     }
 }
 
-/// The components that an affine spin is given by.
-pub(super) fn components_of(spin: Quantity) -> Components {
+/// The frame whose affine spin it is.
+pub(super) fn frame_of(spin: Quantity) -> Frame {
     match spin {
-        Quantity::ComovingAffineSpin => Components::Comoving,
-        Quantity::CanonicalMomentum => Components::TwoPoint,
-        _ => Components::Spatial,
+        Quantity::ComovingAffineSpin => Frame::Body,
+        Quantity::CanonicalMomentum => Frame::Flat,
+        _ => Frame::Space,
     }
 }

@@ -3,7 +3,6 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use crate::derive::reads_time;
 use crate::ir::Program;
 use crate::symbol::{Quantity, Symbol};
 
@@ -50,7 +49,12 @@ pub(super) fn leading_pattern(components: &[Symbol], used: &[Symbol]) -> TokenSt
 /// The statement that binds those of some components that are used to what `from` points at, and the name of that parameter,
 /// an idle one where none is.
 pub(super) fn bound(components: &[Symbol], used: &[Symbol], from: &str) -> (TokenStream, Ident) {
-    if !reads(used, components) {
+    held(if reads(used, components) { components } else { &[] }, used, from)
+}
+
+/// The same of a parameter that is idle only where it holds nothing.
+pub(super) fn held(components: &[Symbol], used: &[Symbol], from: &str) -> (TokenStream, Ident) {
+    if components.is_empty() {
         return (TokenStream::new(), format_ident!("_{from}"));
     }
     let (bound, from) = (pattern(components, used), format_ident!("{from}"));
@@ -90,6 +94,14 @@ pub(super) fn in_rows(results: &[TokenStream], size: usize) -> TokenStream {
     quote!([#(#rows),*])
 }
 
+/// One by itself, several as a tuple.
+pub(super) fn together(parts: &[TokenStream]) -> TokenStream {
+    match parts {
+        [one] => one.clone(),
+        several => quote!((#(#several),*)),
+    }
+}
+
 /// The components of a vector.
 pub(super) fn components(of: Quantity, n: usize) -> Vec<Symbol> {
     (1..=n).map(|i| of.at([i])).collect()
@@ -102,5 +114,5 @@ pub(super) fn entries(of: Quantity, n: usize) -> Vec<Vec<Symbol>> {
 
 /// Name of the time as a parameter: an idle one where the program does not read it.
 pub(super) fn time(program: &Program) -> TokenStream {
-    if reads_time(program) { quote!(t) } else { quote!(_t) }
+    if program.reads_time() { quote!(t) } else { quote!(_t) }
 }

@@ -3,9 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::derive::{Components, VolumeMeasure};
 use crate::ir::Program;
-use crate::symbol::{Quantity, Symbol};
+use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -14,16 +13,16 @@ use super::pattern::{bound_entries, components, entries, ident, pattern, reads, 
 
 /// The model's own affine spin of `point`, as a matrix.
 pub(super) fn own_spin(context: &Context) -> TokenStream {
-    spin(context, context.model.spin())
+    spin(context, context.model.frame)
 }
 
-/// These components of the affine spin of `point`, as a matrix.
-pub(super) fn spin(context: &Context, components: Components) -> TokenStream {
+/// The affine spin of `point` in the components of a frame, as a matrix.
+pub(super) fn spin(context: &Context, frame: Frame) -> TokenStream {
     let rt = &context.names.rt;
-    match components {
-        Components::Comoving => quote!(#rt::Phase::sigma_hat(point).0.0),
-        Components::Spatial => quote!(#rt::Phase::sigma(point).0.0),
-        Components::TwoPoint => quote!(#rt::Phase::pi(point).0.0),
+    match frame {
+        Frame::Body => quote!(#rt::Phase::sigma_hat(point).0.0),
+        Frame::Space => quote!(#rt::Phase::sigma(point).0.0),
+        Frame::Flat => quote!(#rt::Phase::pi(point).0.0),
     }
 }
 
@@ -45,11 +44,7 @@ pub(super) fn moving(
 ) -> Moving {
     let (rt, n) = (&context.names.rt, context.model.dim);
     let used: Vec<Symbol> = programs.iter().flat_map(|program| program.inputs()).collect();
-    let matrix = |of: Quantity, value: TokenStream| {
-        let entries = entries(of, n);
-        let bound = table_pattern(&entries, &used);
-        reads(&used, &entries.concat()).then(|| quote!(let #bound = #rt::rows(#value);))
-    };
+    let matrix = |of: Quantity, value: TokenStream| bind_matrix(context, &entries(of, n), &used, &value);
     let vector = |of: Quantity, value: TokenStream| {
         let components = components(of, n);
         let bound = pattern(&components, &used);
@@ -67,19 +62,28 @@ pub(super) fn moving(
     ];
     let placement = matrix(Quantity::Placement, phi.clone());
     let inverts =
-        context.model.centre() == Some(Components::Comoving) || through_inverse.iter().any(Option::is_some);
+        context.model.translation == Some(Frame::Body) || through_inverse.iter().any(Option::is_some);
     let inverse = inverts.then(|| quote!(let phi_inverse = #rt::inverse(#phi);));
     let lets = quote!(#inverse #(#through_inverse)* #(#given)* #placement);
     Moving { lets, reads_phi: inverts || placement.is_some() }
 }
 
-/// Wrapper of a vector or a matrix of these components.
-pub(super) fn wrapper(context: &Context, components: Components) -> TokenStream {
+/// Wrapper of a vector or a matrix in the components of a frame.
+pub(super) fn wrapper(context: &Context, frame: Frame) -> TokenStream {
     let rt = &context.names.rt;
-    match components {
-        Components::Comoving => quote!(#rt::Comoving),
-        Components::Spatial => quote!(#rt::Spatial),
-        Components::TwoPoint => quote!(#rt::TwoPoint),
+    match frame {
+        Frame::Body => quote!(#rt::Comoving),
+        Frame::Space => quote!(#rt::Spatial),
+        Frame::Flat => quote!(#rt::TwoPoint),
+    }
+}
+
+/// The phase point of `phi` and a momentum, or why it is none: under a constraint both have to obey it.
+pub(super) fn phase_point(context: &Context, momentum: &TokenStream, centre: &TokenStream) -> TokenStream {
+    let rt = &context.names.rt;
+    match context.constraint() {
+        None => quote!(#rt::phase_point(phi, #momentum, #centre)),
+        Some(group) => quote!(#rt::confined_point(#group, phi, #momentum, #centre)),
     }
 }
 
@@ -150,42 +154,41 @@ pub(super) fn group_of_point(context: &Context, group: Quantity) -> TokenStream 
 }
 
 /// A statement that binds the entries of `phi` that a program reads; nothing where it reads none.
-pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream) -> TokenStream {
-    let (rt, used) = (&context.names.rt, program.inputs());
+pub(super) fn placement(context: &Context, program: &Program, phi: &TokenStream) -> Option<TokenStream> {
     let entries = entries(Quantity::Placement, context.model.dim);
-    if !reads(&used, &entries.concat()) {
-        return TokenStream::new();
-    }
-    let bound = table_pattern(&entries, &used);
-    quote!(let #bound = #rt::rows(#phi);)
+    bind_matrix(context, &entries, &program.inputs(), phi)
+}
+
+/// A statement that binds the entries of the matrix that `value` points at, as far as they are used; nothing where none is.
+pub(super) fn bind_matrix(
+    context: &Context,
+    entries: &[Vec<Symbol>],
+    used: &[Symbol],
+    value: &TokenStream,
+) -> Option<TokenStream> {
+    let (rt, bound) = (&context.names.rt, table_pattern(entries, used));
+    reads(used, &entries.concat()).then(|| quote!(let #bound = #rt::rows(#value);))
 }
 
 /// `let` statements for the functions of the placement of `point` that a program reads: `q`, `D` and `q_a`.
 fn at_placement(context: &Context, program: &Program) -> TokenStream {
     let rt = &context.names.rt;
     let used = program.inputs();
-    let [mean, dilatation] = [VolumeMeasure::MeanLogStretch, VolumeMeasure::Dilatation].map(|measure| {
-        let is_read = used.contains(&measure.quantity().into());
-        is_read.then(|| bind_measure(context, measure, &quote!(#rt::Phase::phi(point))))
+    let phi = quote!(#rt::Phase::phi(point));
+    let measures =
+        [(Quantity::MeanLogStretch, quote!(mean_log_stretch)), (Quantity::Dilatation, quote!(dilatation))];
+    let measures = measures.into_iter().filter_map(|(of, function)| {
+        let symbol = of.into();
+        let name = ident(&symbol);
+        used.contains(&symbol).then(|| quote!(let #name = #rt::#function(#phi);))
     });
     let log_stretches = components(Quantity::LogStretches, context.model.dim);
     let stretches = reads(&used, &log_stretches).then(|| {
         let bound = pattern(&log_stretches, &used);
-        quote!(let #bound = #rt::log_stretches(#rt::Phase::phi(point));)
+        quote!(let #bound = #rt::log_stretches(#phi);)
     });
     quote! {
-        #mean
-        #dilatation
+        #(#measures)*
         #stretches
     }
-}
-
-/// The statement that binds a function of `det phi`.
-fn bind_measure(context: &Context, measure: VolumeMeasure, phi: &TokenStream) -> TokenStream {
-    let (rt, symbol) = (&context.names.rt, ident(&measure.quantity().into()));
-    let value = match measure {
-        VolumeMeasure::MeanLogStretch => quote!(#rt::mean_log_stretch(#phi)),
-        VolumeMeasure::Dilatation => quote!(#rt::dilatation(#phi)),
-    };
-    quote!(let #symbol = #value;)
 }

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{BalancedQuantities, Components, reads_time};
+use crate::derive::BalancedQuantities;
 use crate::ir::Program;
-use crate::symbol::Quantity;
+use crate::symbol::{Frame, Quantity};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -39,7 +39,7 @@ fn metric(context: &Context) -> TokenStream {
         let placement = placement(context, program, &quote!(phi));
         let Body { lets, results } = context.double(program);
         let rows = in_rows(&results, metric.size);
-        let reads = !placement.is_empty();
+        let reads = placement.is_some();
         let (mut inward, mut form) = (TokenStream::new(), quote!(#rt::matrix(#rows)));
         if context.model.metrics.is_some() {
             let carried = format_ident!("{carried}");
@@ -74,7 +74,7 @@ fn acceleration(context: &Context) -> TokenStream {
     let point = context.point(&quote!(#rt::f64));
     let (Body { lets, results }, reads) = at_point(context, program, Number::Double);
     let point_name = if reads { quote!(point) } else { quote!(_point) };
-    let at = reads_time(program).then(|| quote!(t: #rt::f64,));
+    let at = program.reads_time().then(|| quote!(t: #rt::f64,));
     let inward = if reads { context.inward(Coefficients::Own) } else { TokenStream::new() };
     let acceleration = quote!(#rt::vector([#(#results),*]));
     let bases = context.bases(Some(&quote!(#rt::f64)), Coefficients::Own);
@@ -102,13 +102,12 @@ fn balance(context: &Context) -> TokenStream {
         let rows = in_rows(entries, dim);
         quote!(#rt::matrix(#rows))
     };
-    let fields = |quantities: &[(Quantity, Components)], results: &[TokenStream], size: usize| {
+    let fields = |quantities: &[(Quantity, Frame)], results: &[TokenStream], size: usize| {
         let value = |entries: &[TokenStream]| {
             if size == dim { quote!(#rt::vector([#(#entries),*])) } else { matrix(entries) }
         };
-        let field = |((of, components), entries): (&(Quantity, Components), &[TokenStream])| {
-            let (name, wrapper, value) =
-                (ident(&(*of).into()), wrapper(context, *components), value(entries));
+        let field = |((of, frame), entries): (&(Quantity, Frame), &[TokenStream])| {
+            let (name, wrapper, value) = (ident(&(*of).into()), wrapper(context, *frame), value(entries));
             quote!(#name: #wrapper(#value))
         };
         let fields = quantities.iter().zip(results.chunks(size)).map(field);

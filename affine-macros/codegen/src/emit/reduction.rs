@@ -1,5 +1,6 @@
 //! Reduction, reduced equations and expansion.
 
+mod methods;
 mod plain;
 
 use proc_macro2::TokenStream;
@@ -10,8 +11,8 @@ use crate::symbol::{Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
-use super::parametric::{Evaluation, Method, asks_again, equations_head};
-use super::passage::{any, components_of, programs, statements, value, variable};
+use super::parametric::{Method, asks_again};
+use super::passage::{any, frame_of, programs, statements, value, variable};
 use super::pattern::{bound, identifiers, pattern, time};
 use super::point::wrapper;
 use super::trajectory;
@@ -50,7 +51,7 @@ pub(super) fn methods(context: &Context) -> [Method; 4] {
 
 /// `reduce`: what moves in closed form is taken out, and space is turned.
 fn reduce(context: &Context, passage: &Passage) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let t = &context.names.scalar;
     let reduced = &context.model.dynamics.reduced;
     let program = &context.model.dynamics.trajectory;
     let used = [reduced.symbols(), program.inputs(), passage.fixed()].concat();
@@ -64,25 +65,11 @@ fn reduce(context: &Context, passage: &Passage) -> TokenStream {
     let origin = if starts { quote!(t0) } else { quote!(_t0) };
     let inward = context.inward(Coefficients::Given);
     let evaluated = [vec![program.clone()], programs(context, &passage.inward)].concat();
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", &evaluated);
-    quote! {
-        fn #name<#t: #rt::Real>(
-            &self,
-            #parameter
-            #origin: #t,
-            point: &Self::Point<#t>,
-        ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
-            #inward
-            #lets
-            #coefficients
-            #work
-            ([#(#state),*], #constants)
-        }
-    }
+    let body = quote!(#inward #lets #coefficients #work ([#(#state),*], #constants));
+    methods::reduce(context, &evaluated, &origin, &body)
 }
 
 fn reduced_equations(context: &Context) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
     let program = &context.model.dynamics.reduced.program;
     let used = program.inputs();
     let all = context.model.dynamics.reduced.symbols();
@@ -92,24 +79,8 @@ fn reduced_equations(context: &Context) -> TokenStream {
     let read = (!kept.is_empty()).then(|| quote!(let #coefficients = constants.coefficients;));
     let constants = if kept.is_empty() { quote!(_constants) } else { quote!(constants) };
     let Body { lets, results } = context.generic(program, Coefficients::Given);
-    let time = time(program);
-    let inline = context.inline();
-    let (name, parameter) = equations_head(context);
-    quote! {
-        #inline
-        fn #name<#t: #rt::Scalar>(
-            &self,
-            #parameter
-            #time: #t,
-            #constants: &Self::Constants<#t>,
-            #state: &Self::Reduced<#t>,
-        ) -> Self::Reduced<#t> {
-            #read
-            #bind
-            #lets
-            [#(#results),*]
-        }
-    }
+    let body = quote!(#read #bind #lets [#(#results),*]);
+    methods::equations(context, [time(program), constants, quote!(#state)], &body)
 }
 
 /// `expand`: what moves in closed form is put back, and space turned back.
@@ -125,7 +96,7 @@ fn expand(context: &Context, passage: &Passage) -> TokenStream {
     let bound = pattern(&all, &needed);
     let lets = statements(context, &passage.outward, &all);
     let spin = passage.momentum.as_ref().map(|(quantity, momentum)| {
-        let (wrapper, momentum) = (wrapper(context, components_of(*quantity)), value(context, momentum));
+        let (wrapper, momentum) = (wrapper(context, frame_of(*quantity)), value(context, momentum));
         quote!(#wrapper(#momentum))
     });
     let centre = match &passage.centre {
@@ -148,20 +119,7 @@ fn expand(context: &Context, passage: &Passage) -> TokenStream {
     let point = quote!(#rt::point(phi, #spin, #centre));
     let point = context.outward(&quote!(#t), point, Coefficients::Given);
     let evaluated = programs(context, &passage.outward);
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", &evaluated);
-    quote! {
-        fn #name<#t: #rt::Real>(
-            &self,
-            #parameter
-            #time: #t,
-            #constants: &Self::Constants<#t>,
-            reduced: &Self::Reduced<#t>,
-        ) -> Self::Point<#t> {
-            let #bound = *reduced;
-            #lets
-            #point
-        }
-    }
+    methods::expand(context, &evaluated, [time, constants], &quote!(let #bound = *reduced; #lets #point))
 }
 
 /// A field of a struct, whose name stands alone where the value is a variable of that name.

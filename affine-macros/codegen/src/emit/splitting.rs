@@ -4,13 +4,13 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::algebra::passage::DilatationalMotion;
-use crate::derive::reads_time;
 use crate::derive::splitting::{FlowProgram, Programs};
 use crate::ir::{Op, Program, Value};
 use crate::symbol::Symbol;
 
-use super::body::{Body, inner};
+use super::body::Body;
 use super::context::{Coefficients, Context};
+use super::expression::inner;
 use super::number::number;
 use super::passage::closed_form;
 use super::pattern::{self, identifiers, in_rows, table};
@@ -25,18 +25,12 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     let names = pieces.iter().map(|(name, _)| name);
     let bodies: Vec<TokenStream> =
         pieces.iter().map(|(_, flows)| flows.iter().map(|flow| written(context, flow)).collect()).collect();
-    // There is no other piece than those that are counted.
-    let arms = bodies.iter().enumerate().map(|(k, body)| {
-        let piece = number(k);
-        let place = if k + 1 == bodies.len() { quote!(_) } else { quote!(#piece) };
-        quote!(#place => { #body })
-    });
     let moves = [quote!(h), quote!(state), quote!(carry)];
     let (body, piece, [h, state, carry]) = match bodies.as_slice() {
         // All that moves does so in closed form.
         [] => (TokenStream::new(), quote!(_piece), [quote!(_h), quote!(_state), quote!(_carry)]),
         [only] => (only.clone(), quote!(_piece), moves),
-        _ => (quote!(match piece { #(#arms)* }), quote!(piece), moves),
+        several => (chosen(several), quote!(piece), moves),
     };
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(FlowProgram::program);
     let dilates =
@@ -47,7 +41,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         )
     });
     let is_read = |symbol: &Symbol| programs().any(|program| program.symbols().any(|read| read == symbol));
-    let time = if programs().any(reads_time) { quote!(t) } else { quote!(_t) };
+    let time = if programs().any(Program::reads_time) { quote!(t) } else { quote!(_t) };
     let constants = match trajectory::all(context).iter().any(is_read) {
         true => quote!(constants),
         false => quote!(_constants),
@@ -73,6 +67,24 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
     context.implementation("Splitting", &items)
 }
 
+/// The flow of the piece that is asked for. There is no other than those that are counted.
+pub(super) fn chosen(flows: &[TokenStream]) -> TokenStream {
+    let arms = flows.iter().enumerate().map(|(k, flow)| {
+        let piece = number(k);
+        let place = if k + 1 == flows.len() { quote!(_) } else { quote!(#piece) };
+        quote!(#place => { #flow })
+    });
+    quote!(match piece { #(#arms)* })
+}
+
+/// Results that stand in products: several are names or numbers, a single one may be a sum and gets a name.
+pub(super) fn as_factors(results: Vec<TokenStream>) -> (TokenStream, Vec<TokenStream>) {
+    match results.as_slice() {
+        [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
+        _ => (TokenStream::new(), results),
+    }
+}
+
 /// What a flow reads: components of the state, besides `more`, and coefficients of the trajectory.
 fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
     let mut used = program.inputs();
@@ -85,15 +97,18 @@ fn bound(context: &Context, program: &Program, more: &[Symbol]) -> TokenStream {
 
 /// Adds to a component of the state.
 fn accumulated(context: &Context, component: &Symbol, rise: TokenStream) -> TokenStream {
+    let at = place(&context.model.dynamics.reduced.symbols(), component);
+    added_at(context, &at, rise)
+}
+
+/// The place of a component in a state.
+pub(super) fn place(state: &[Symbol], component: &Symbol) -> Literal {
+    number(state.iter().position(|name| name == component).unwrap_or(0))
+}
+
+/// Adds to what stands at a place.
+pub(super) fn added_at(context: &Context, at: &Literal, rise: TokenStream) -> TokenStream {
     let rt = &context.names.rt;
-    let at = context
-        .model
-        .dynamics
-        .reduced
-        .symbols()
-        .iter()
-        .position(|name| name == component)
-        .map_or_else(|| number(0), number);
     quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], #rise);)
 }
 
@@ -103,11 +118,7 @@ fn written(context: &Context, flow: &FlowProgram) -> TokenStream {
             let over_time = matches!(flow, FlowProgram::Shift { .. }).then(|| quote!(h *));
             let bind = bound(context, program, &[]);
             let Body { lets, results } = context.generic(program, Coefficients::Own);
-            // Several results are names or numbers; a single one may be a sum.
-            let (only, results) = match results.as_slice() {
-                [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
-                _ => (TokenStream::new(), results),
-            };
+            let (only, results) = as_factors(results);
             let rises = moved
                 .iter()
                 .zip(&results)

@@ -8,7 +8,7 @@ use crate::symbol::{Aspect, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
-use super::groups::group;
+use super::groups::each;
 use super::number::number;
 use super::pattern::{pattern, reads, time};
 use super::trajectory;
@@ -18,11 +18,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(variational) = &context.model.methods.tangent else { return TokenStream::new() };
     let rt = &context.names.rt;
     let t = &context.names.scalar;
-    let groups = context.model.dynamics.reduced.groups.iter().map(|(quantity, components)| {
-        let len = number(components.len());
-        group(context, *quantity, &len)
-    });
-    let groups: Vec<TokenStream> = groups.collect();
+    let groups = each(context, &context.model.dynamics.reduced.groups);
     let states = context.model.dynamics.reduced.symbols();
     let (len, both) = (number(states.len()), number(2 * states.len()));
     let equations = match &variational.program {

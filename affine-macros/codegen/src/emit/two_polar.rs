@@ -6,7 +6,7 @@ mod ratios;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, Places, TwoPolar};
+use crate::derive::TwoPolar;
 use crate::ir::Program;
 use crate::symbol::Symbol;
 
@@ -14,9 +14,10 @@ use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::description;
 use super::groups::groups;
+use super::names::variant;
 use super::number::number;
-use super::pattern::pattern;
-use super::point::{own_spin, wrapper};
+use super::pattern::{held, pattern};
+use super::point::{own_spin, phase_point, wrapper};
 
 /// The implementations of the lattice traits, where they were asked for.
 pub(super) fn implementations(context: &Context) -> TokenStream {
@@ -43,18 +44,17 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     let docs = docs(form);
     let function = |program: &Program, variables: &[Symbol]| {
         let used = program.inputs();
-        let (couplings, bound) = (pattern(&form.couplings, &used), pattern(variables, &used));
+        let (couplings, _) = held(&form.couplings, &used, "couplings");
+        let bound = pattern(variables, &used);
         let body = context.generic(program, Coefficients::Own);
         let lets = &body.lets;
-        let couplings =
-            if form.couplings.is_empty() { quote!() } else { quote!(let #couplings = *couplings;) };
         (quote!(#couplings let #bound = *state; #lets), body)
     };
     let (rates, Body { results: rate_results, .. }) = function(&form.rates, &state);
     let (framed_rates, Body { results: framed_results, .. }) = function(&form.framed, &framed);
     let (energy, body) = function(&form.energy, &state);
     let energy_result = body.result();
-    let couplings = if form.couplings.is_empty() { quote!(_couplings) } else { quote!(couplings) };
+    let (_, couplings) = held(&form.couplings, &[], "couplings");
     let pieces = pieces::implementation(context, form, &framed);
     let items = quote! {
         const LATTICE: #rt::LatticeDescription = #description;
@@ -97,9 +97,8 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
 
 fn conversions(context: &Context) -> TokenStream {
     let (rt, n) = (&context.names.rt, context.dim());
-    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.spin()));
+    let (frame, spin, wrap) = (context.frame(), own_spin(context), wrapper(context, context.model.frame));
     let f64 = quote!(#rt::f64);
-    let confined = context.constraint();
     let centre = match context.model.translation {
         None => quote!(#rt::Pinned),
         Some(_) => {
@@ -112,10 +111,7 @@ fn conversions(context: &Context) -> TokenStream {
         None => quote!(::core::option::Option::None),
         Some(program) => {
             let Body { lets, results } = context.double(program);
-            let side = match context.model.spin() {
-                Components::Comoving => quote!(Body),
-                _ => quote!(Space),
-            };
+            let side = variant(context.model.frame);
             let [inverse_alpha, inverse_beta, inverse_mu] = &results[..] else { return TokenStream::new() };
             quote! {
                 #lets
@@ -128,10 +124,7 @@ fn conversions(context: &Context) -> TokenStream {
             }
         }
     };
-    let point = match confined {
-        None => quote!(#rt::phase_point(phi, #wrap(spin), #centre)),
-        Some(group) => quote!(#rt::confined_point(#group, phi, #wrap(spin), #centre)),
-    };
+    let point = phase_point(context, &quote!(#wrap(spin)), &centre);
     let items = quote! {
         fn lattice(&self, point: &Self::Point<#f64>) -> #rt::Result<#rt::Lattice<#n>> {
             #rt::lattice_of::<#n, #frame>(#rt::Phase::phi(point), &#spin, ::core::option::Option::None)
@@ -174,11 +167,7 @@ fn description(context: &Context, form: &TwoPolar) -> TokenStream {
     let (hamiltonian, equations) = &form.formulas;
     let hamiltonian = description::formula(context, &hamiltonian.text, hamiltonian.latex.as_deref());
     let equations = equations.iter().map(|f| description::formula(context, &f.text, f.latex.as_deref()));
-    let variables = match form.places {
-        Places::LogStretches => format_ident!("LogStretches"),
-        Places::Stretches => format_ident!("Stretches"),
-        Places::Angles => format_ident!("Angles"),
-    };
+    let variables = variant(form.places);
     let potential = match (context.model.description.has_forces, form.dilatation_only) {
         (false, _) => format_ident!("None"),
         (true, true) => format_ident!("Dilatation"),

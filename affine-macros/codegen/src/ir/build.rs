@@ -8,6 +8,7 @@ use crate::algebra::{Arena, Expr, Rational};
 use crate::symbol::Symbol;
 
 use super::call::Call;
+use super::steps::Steps;
 use super::{Op, Program, Value};
 
 /// Powers from this one on are made of squares: those below take as many products either way.
@@ -25,8 +26,9 @@ pub struct Ways {
 /// Builds a program expression by expression.
 #[derive(Debug, Default)]
 pub struct Builder {
+    steps: Steps,
+    /// What it has besides these.
     program: Program,
-    known: FxHashMap<Op, Value>,
     lowered: FxHashMap<Expr, Value>,
     ways: Ways,
     /// There is a power for which that makes a difference.
@@ -54,7 +56,7 @@ impl Builder {
         let made = self.lower(arena, value);
         self.lowered.insert(symbol, made);
         if let Some(symbol) = arena.as_symbol(symbol)
-            && !matches!(self.program.steps[made], Op::Input(_) | Op::Constant(_))
+            && !matches!(self.steps.list[made], Op::Input(_) | Op::Constant(_))
             && !self.program.names.iter().any(|(v, _)| *v == made)
         {
             self.program.names.push((made, symbol.clone()));
@@ -85,25 +87,15 @@ impl Builder {
 
     /// The program: only what the results need.
     pub fn finish(self) -> Program {
-        self.program.without_dead_steps()
-    }
-
-    fn step(&mut self, op: Op) -> Value {
-        if let Some(&known) = self.known.get(&op) {
-            return known;
-        }
-        let value = self.program.steps.len();
-        self.program.steps.push(op.clone());
-        self.known.insert(op, value);
-        value
+        Program { steps: self.steps.list, ..self.program }.without_dead_steps()
     }
 
     fn commutative(&mut self, make: fn(Value, Value) -> Op, a: Value, b: Value) -> Value {
-        self.step(make(a.min(b), a.max(b)))
+        self.steps.step(make(a.min(b), a.max(b)))
     }
 
     fn constant(&mut self, value: &Rational) -> Value {
-        self.step(Op::Constant(value.clone()))
+        self.steps.step(Op::Constant(value.clone()))
     }
 
     fn lower(&mut self, arena: &Arena, expr: Expr) -> Value {
@@ -112,12 +104,12 @@ impl Builder {
         }
         let value = match arena.node(expr) {
             Node::Constant(number) => self.constant(number),
-            Node::Symbol(symbol) => self.step(Op::Input(symbol.clone())),
+            Node::Symbol(symbol) => self.steps.step(Op::Input(symbol.clone())),
             Node::Sum(constant, terms) => self.sum(arena, constant, terms),
             Node::Product(factors) => self.product(arena, factors),
             Node::Function(function, argument) => {
                 let argument = self.lower(arena, *argument);
-                self.step(Op::Call(*function, argument))
+                self.steps.step(Op::Call(*function, argument))
             }
         };
         self.lowered.insert(expr, value);
@@ -147,9 +139,9 @@ impl Builder {
         for (negative, value) in summands {
             sum = Some(match (sum, negative) {
                 (None, false) => value,
-                (None, true) => self.step(Op::Neg(value)),
+                (None, true) => self.steps.step(Op::Neg(value)),
                 (Some(sum), false) => self.commutative(Op::Add, sum, value),
-                (Some(sum), true) => self.step(Op::Sub(sum, value)),
+                (Some(sum), true) => self.steps.step(Op::Sub(sum, value)),
             });
         }
         sum.unwrap_or_else(|| self.constant(&Rational::ZERO))
@@ -183,7 +175,7 @@ impl Builder {
             let mut base = self.lower(arena, base);
             if exponent < 0 && self.ways.inverts_divisors {
                 let one = self.constant(&Rational::ONE);
-                base = self.step(Op::Div(one, base));
+                base = self.steps.step(Op::Div(one, base));
             }
             let is_factor = exponent > 0 || self.ways.inverts_divisors;
             let side = if is_factor { &mut above } else { &mut below };
@@ -207,7 +199,7 @@ impl Builder {
             (Some(a), None) => a,
             (above, Some(b)) => {
                 let a = above.unwrap_or_else(|| self.constant(&Rational::ONE));
-                self.step(Op::Div(a, b))
+                self.steps.step(Op::Div(a, b))
             }
             (None, None) => self.constant(&Rational::ONE),
         }

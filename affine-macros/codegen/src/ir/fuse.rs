@@ -37,10 +37,7 @@ pub fn fuse(program: &Program) -> Program {
             }
         };
     }
-    result.calls = program.calls.iter().map(|call| call.renumbered(&place)).collect();
-    result.names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
-    result.outputs = program.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
-    result.without_dead_steps()
+    result.ending_as(program, &place)
 }
 
 fn push(program: &mut Program, op: Op) -> Value {

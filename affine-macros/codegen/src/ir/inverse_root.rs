@@ -31,8 +31,5 @@ pub fn with_inverse_roots(program: &Program) -> Program {
         }
         place[k] = result.steps.len() - 1;
     }
-    result.calls = program.calls.iter().map(|call| call.renumbered(&place)).collect();
-    result.names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
-    result.outputs = program.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
-    result.without_dead_steps()
+    result.ending_as(program, &place)
 }

@@ -4,50 +4,31 @@
 //! Derivatives, section 3.1); what does not depend on an input that changes has none. Values and changes share what they
 //! have in common.
 
-use rustc_hash::FxHashMap;
-
 use crate::algebra::{Function, Rational};
 use crate::symbol::{Aspect, Symbol};
 
+use super::steps::Steps;
 use super::{Op, Program, Value};
 
 /// The results of `program`, then their changes. The input `x`, where `changing(x)`, changes by the input
 /// [`Aspect::Change`] of `x`. What runtime functions provide does not change: programs that call some have no derivative here.
 pub fn with_tangent(program: &Program, changing: &impl Fn(&Symbol) -> bool) -> Program {
-    let mut builder = Builder { steps: program.steps.clone(), known: FxHashMap::default() };
-    for (value, op) in program.steps.iter().enumerate() {
-        builder.known.entry(op.clone()).or_insert(value);
-    }
+    let mut steps = Steps::of(program.steps.clone());
     let mut changes: Vec<Option<Value>> = Vec::with_capacity(program.steps.len());
     for (value, op) in program.steps.iter().enumerate() {
-        let change = builder.change(value, op, &changes, changing);
+        let change = steps.change(value, op, &changes, changing);
         changes.push(change);
     }
     let mut outputs = program.outputs.clone();
     for (name, value) in &program.outputs {
-        let change = changes[*value].unwrap_or_else(|| builder.step(Op::Constant(Rational::ZERO)));
+        let change = changes[*value].unwrap_or_else(|| steps.step(Op::Constant(Rational::ZERO)));
         outputs.push((name.clone().seen(Aspect::Change), change));
     }
-    let program = Program { steps: builder.steps, outputs, ..program.clone() };
+    let program = Program { steps: steps.list, outputs, ..program.clone() };
     program.without_dead_steps()
 }
 
-/// Steps, each one once.
-struct Builder {
-    steps: Vec<Op>,
-    known: FxHashMap<Op, Value>,
-}
-
-impl Builder {
-    fn step(&mut self, op: Op) -> Value {
-        if let Some(&known) = self.known.get(&op) {
-            return known;
-        }
-        self.steps.push(op.clone());
-        self.known.insert(op, self.steps.len() - 1);
-        self.steps.len() - 1
-    }
-
+impl Steps {
     /// The change of a value, if it has one.
     fn change(
         &mut self,

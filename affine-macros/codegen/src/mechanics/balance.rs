@@ -5,8 +5,8 @@
 //! (3.6), and with `phi_dot = Om phi` (3.8). Seen from the body as a tensor with two upper indices,
 //! `K_hat = phi^-1 K phi^-T = Pi phi^-T`, which is not `Sigma_hat = Pi phi`; the same product rule gives (3.9).
 
-use crate::algebra::ring::{Square, product, table, times, transpose};
-use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
+use crate::algebra::ring::{Square, difference, product, sum, table, times, transpose};
+use crate::algebra::{Arena, Expr, Kernel, Polynomial};
 use crate::symbol::Quantity;
 
 use super::charts::{Chart, Coordinate};
@@ -63,10 +63,10 @@ impl Laws {
         added.iter().for_each(|load| inertial.add(load));
         let mut system = System { shared: inertial.shared.clone(), ..still(chart) };
         loads.iter().for_each(|load| system.add(load));
-        let kinetic = table(n, |a, i| rate(&inertial, Coordinate::M(a, i)));
+        let kinetic = table(n, |a, i| inertial.rate(Coordinate::M(a, i)));
         let mut shared = Shared { arena, list: Vec::new() };
         let phi_dot = kinetics.velocity.atoms();
-        let push = shared.matrix(Quantity::Load, &table(n, |a, i| rate(&system, Coordinate::M(a, i))));
+        let push = shared.matrix(Quantity::Load, &table(n, |a, i| system.rate(Coordinate::M(a, i))));
         let inverse = shared.inverse(&phi);
         let upper = |shared: &mut Shared, of: Quantity, tensor: &Square<Polynomial>| {
             shared.matrix(of, &product(tensor, &transpose(&inverse)))
@@ -84,31 +84,24 @@ impl Laws {
             None => product(&inverse, &phi_dot),
         };
         let omega_hat = shared.matrix(Quantity::ComovingAffineVelocity, &omega_hat);
-        let negative = |entry: &Polynomial| entry.neg();
         let inertia_hat = product(&spin_hat, &transpose(&omega_hat));
         let centre = if chart.p.is_empty() {
             Vec::new()
         } else {
-            let momentum: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
-            let forces: Vec<Polynomial> = (0..n).map(|i| rate(&system, Coordinate::P(i))).collect();
+            let momentum = Polynomial::vector(&chart.p);
+            let forces: Vec<Polynomial> = (0..n).map(|i| system.rate(Coordinate::P(i))).collect();
             let forces = shared.vector(Quantity::Load, &forces);
             let momentum_hat = shared.vector(Quantity::ComovingMomentum, &times(&inverse, &momentum));
-            let inertia_hat = times(&omega_hat, &momentum_hat).iter().map(negative).collect();
+            let inertia_hat = times(&omega_hat, &momentum_hat).iter().map(Polynomial::neg).collect();
             let force_hat = times(&inverse, &forces);
             vec![momentum, forces, momentum_hat, inertia_hat, force_hat]
         };
-        let sum = |mut left: Polynomial, right: &Polynomial| {
-            left.add_scaled(right, &Rational::ONE);
-            left
-        };
-        let (turned, of_kinetic) = (product(&phi_dot, &pi), product(&phi, &kinetic));
-        let of_kinetic_hat = product(&kinetic, &transpose(&inverse));
         let internal = [
             product(&phi, &pi),
-            table(n, |i, j| sum(turned[i][j].clone(), &of_kinetic[i][j])),
+            sum(&product(&phi_dot, &pi), &product(&phi, &kinetic)),
             product(&phi, &push),
             spin_hat,
-            table(n, |a, b| sum(negative(&inertia_hat[a][b]), &of_kinetic_hat[a][b])),
+            difference(&product(&kinetic, &transpose(&inverse)), &inertia_hat),
             moment_hat,
         ];
         system.add(&Load { shared: shared.list, ..Load::default() });
@@ -120,9 +113,4 @@ impl Laws {
 fn still(chart: &Chart) -> System {
     let rates = chart.coordinates().into_iter().map(|z| (z, chart.symbol(z), Polynomial::zero())).collect();
     System { rates, ..System::default() }
-}
-
-fn rate(system: &System, z: Coordinate) -> Polynomial {
-    let found = system.rates.iter().find(|(known, _, _)| *known == z);
-    found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
 }

@@ -32,6 +32,13 @@ impl Body<'_> {
         self.potential.and_then(Potential::time).or_else(|| self.forces.time(arena))
     }
 
+    /// What programs over a chart read: its coordinates, and the time.
+    pub fn inputs(&self, arena: &mut Arena, chart: &Chart) -> Vec<Expr> {
+        let mut inputs = chart.symbols();
+        inputs.extend(self.time(arena));
+        inputs
+    }
+
     /// What is added to the equations of the energy in a chart under a potential in place of its own.
     pub fn loads(
         &self,
@@ -40,10 +47,7 @@ impl Body<'_> {
         potential: Option<&Potential>,
     ) -> Option<Vec<Load>> {
         let own = self.motion.added(arena, chart)?.into_iter();
-        let mut loads: Vec<Load> = match chart.confined {
-            Some(group) => own.map(|load| load.confined(arena, chart, group)).collect(),
-            None => own.collect(),
-        };
+        let mut loads: Vec<Load> = own.map(|load| load.confined(arena, chart)).collect();
         if !self.forces.is_empty() {
             loads.push(self.motion.velocity_names(arena, chart));
         }

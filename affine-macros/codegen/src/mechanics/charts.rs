@@ -1,6 +1,7 @@
 //! Charts of phase space: which momenta stand beside `x` and `phi`.
 
 use crate::algebra::ring::{Square, pairs};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 
 use super::constraint::Constraint;
@@ -76,6 +77,13 @@ pub enum Coordinate {
     Carried(Expr),
 }
 
+impl Coordinate {
+    /// Is it a component of a momentum?
+    pub fn is_momentum(self) -> bool {
+        matches!(self, Self::P(_) | Self::M(..))
+    }
+}
+
 impl Momentum {
     /// The affine spin of a frame.
     pub fn of(frame: Frame) -> Self {
@@ -140,6 +148,20 @@ impl Chart {
         self.coordinates().into_iter().map(|z| self.symbol(z)).collect()
     }
 
+    /// The frame whose affine momentum it has.
+    pub fn frame(&self) -> Frame {
+        match self.momentum {
+            Momentum::Body => Frame::Body,
+            Momentum::Space | Momentum::Total => Frame::Space,
+            Momentum::Canonical => Frame::Flat,
+        }
+    }
+
+    /// Symbols of the affine velocity `(dH/dM)^T`.
+    pub fn velocity(&self, arena: &mut Arena) -> Matrix {
+        Matrix::symbols(arena, self.momentum.velocity(), self.dim)
+    }
+
     /// `phi` in its entries.
     pub fn placement(&self) -> Square<Polynomial> {
         self.phi.atoms()
@@ -152,18 +174,22 @@ impl Chart {
 
     /// A polynomial in the entries of the affine momentum that determine the others.
     pub fn reduced(&self, polynomial: &Polynomial) -> Polynomial {
-        let dependent = self.dependent();
-        polynomial.substitute(&|atom| {
-            dependent.iter().find(|(symbol, _)| *symbol == atom).map(|(_, value)| value.clone())
-        })
+        polynomial.substitute(&listed(&self.dependent()))
     }
 
     /// The coordinates that determine the others, group after group.
     pub fn independent(&self) -> Vec<Coordinate> {
         let dependent = self.dependent();
         let mut all = self.coordinates();
-        all.retain(|z| !dependent.iter().any(|(symbol, _)| *symbol == self.symbol(*z)));
+        all.retain(|z| listed(&dependent)(self.symbol(*z)).is_none());
         all
+    }
+
+    /// The entries of the affine momentum among them.
+    pub fn independent_momenta(&self) -> Vec<Coordinate> {
+        let mut momenta = self.independent();
+        momenta.retain(|z| matches!(z, Coordinate::M(..)));
+        momenta
     }
 
     /// All coordinates, group after group.

@@ -8,7 +8,7 @@
 
 mod terms;
 
-use crate::algebra::ring::{Ring, Square, deviator, table};
+use crate::algebra::ring::{Ring, Square, add_scalar, deviator, table, trace};
 use crate::algebra::{Expr, Matrix, Polynomial, Rational};
 
 use super::direction::{BasisVector, Direction};
@@ -71,10 +71,8 @@ impl Constraint {
         let skew = || {
             table(m.len(), |a, b| {
                 let mut entry = R::zero();
-                if a != b {
-                    entry.plus(&m[a][b], &half);
-                    entry.plus(&m[b][a], &-&half);
-                }
+                entry.plus(&m[a][b], &half);
+                entry.plus(&m[b][a], &-&half);
                 entry
             })
         };
@@ -82,13 +80,9 @@ impl Constraint {
             Self::Isochoric => deviator(m),
             Self::Rigid => skew(),
             Self::Conformal => {
-                let mut result = skew();
-                let nth = Rational::one_over(m.len());
-                for a in 0..m.len() {
-                    for (k, row) in m.iter().enumerate() {
-                        result[a][a].plus(&row[k], &nth);
-                    }
-                }
+                let (mut result, mut mean) = (skew(), R::zero());
+                mean.plus(&trace(m), &Rational::one_over(m.len()));
+                add_scalar(&mut result, &mean);
                 result
             }
         }

@@ -5,7 +5,7 @@
 
 use crate::algebra::kernel::{Asked, Callee, Group};
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
+use crate::algebra::ring::{self, Square, dot, product, sum, table, times, trace_of_product, transpose};
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -13,8 +13,9 @@ use super::charts::{Chart, Linear, Momentum};
 use super::conserved::{Conservation, Momenta};
 use super::equations::Load;
 use super::group_point::{GroupPoint, inverse};
-use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
+use super::shared::{CentreVelocity, Shared, on_momenta};
 use super::term::Frame;
+use super::transport;
 
 /// A field, or a function of the runtime, that computes a force or a potential.
 #[derive(Clone, Debug)]
@@ -149,7 +150,7 @@ impl Custom {
         let (name, results) = match on {
             On::Centre => {
                 let push = self.vector(shared.arena, n);
-                centre = push.iter().take(x_dot.len()).map(|push| Polynomial::atom(*push)).collect();
+                centre = Polynomial::vector(&push[..x_dot.len()]);
                 power = dot(centre.iter().zip(&x_dot));
                 ("translational_force", Group::Vector(push))
             }
@@ -161,18 +162,15 @@ impl Custom {
                 let symbols = self.matrix(shared.arena, Quantity::FieldForce, n);
                 let force = symbols.atoms();
                 let phi = chart.placement();
-                if home == frame_of(chart) {
-                    let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
-                    power = pair(&force, &own);
+                if home == chart.frame() {
+                    let own = chart.velocity(shared.arena).atoms();
+                    power = trace_of_product(&force, &own);
                     affine = force;
                 } else {
-                    let push = match home {
-                        Frame::Space => product(&shared.inverse(&phi), &force),
-                        _ => product(&force, &shared.inverse(&phi)),
-                    };
+                    let push = transport::momentum(home, &force, &shared.inverse(&phi));
                     let push = shared.matrix(Quantity::FieldPush.at([self.place]), &push);
-                    power = pair(&push, &phi_dot);
-                    affine = shared.on_own(chart, &push);
+                    power = trace_of_product(&push, &phi_dot);
+                    affine = transport::momentum(chart.frame(), &push, &phi);
                 }
                 (name, Group::Matrix(symbols.0))
             }
@@ -196,7 +194,7 @@ impl Custom {
         let opposite = self.by.unit(shared.arena).neg();
         let negative = |symbol: &Expr| opposite.mul(&Polynomial::atom(*symbol));
         let push = table(n, |a, i| negative(&along_phi.0[i][a]));
-        let affine = shared.on_own(chart, &push);
+        let affine = transport::momentum(chart.frame(), &push, &chart.placement());
         let centre = match (moves, chart.linear) {
             (true, Some(_)) => along_x.iter().map(negative).collect(),
             _ => vec![Polynomial::zero(); chart.p.len()],
@@ -296,7 +294,7 @@ impl Custom {
     }
 
     fn vector(&self, arena: &mut Arena, n: usize) -> Vec<Expr> {
-        (1..=n).map(|i| arena.symbol(Quantity::FieldPull.at([self.place, i]))).collect()
+        arena.components(Quantity::FieldPull.at([self.place]), n)
     }
 
     fn matrix(&self, arena: &mut Arena, of: Quantity, n: usize) -> Matrix {
@@ -308,10 +306,8 @@ impl Custom {
 fn isotropic(phi: &Square<Residue>, any: &dyn Fn(usize) -> Residue) -> Square<Residue> {
     let (n, green) = (phi.len(), product(&transpose(phi), phi));
     // Horner's scheme.
-    (0..n).fold(table(n, |_, _| Residue::ZERO), |value, k| {
-        let coefficient = any(n + k);
-        let constant = table(n, |a, b| if a == b { coefficient } else { Residue::ZERO });
-        sum(&product(&value, &green), &constant)
+    (0..n).fold(ring::scalar(n, &Residue::ZERO), |value, k| {
+        sum(&product(&value, &green), &ring::scalar(n, &any(n + k)))
     })
 }
 
@@ -320,15 +316,10 @@ type Parts = (Kernel, Square<Polynomial>, Vec<Polynomial>, Option<Polynomial>);
 
 /// `x, phi`; `x = 0` where the chart has none.
 fn placed(chart: &Chart) -> Vec<Group<Polynomial>> {
-    let x = chart.x.iter().map(|x| Polynomial::atom(*x)).collect();
-    vec![Group::Vector(or_zero(x, chart.dim)), Group::Matrix(chart.placement())]
+    let x = or_zero(Polynomial::vector(&chart.x), chart.dim);
+    vec![Group::Vector(x), Group::Matrix(chart.placement())]
 }
 
 fn or_zero(vector: Vec<Polynomial>, n: usize) -> Vec<Polynomial> {
     if vector.is_empty() { vec![Polynomial::zero(); n] } else { vector }
-}
-
-/// `tr(force velocity)`.
-fn pair(force: &Square<Polynomial>, velocity: &Square<Polynomial>) -> Polynomial {
-    dot(pairs(force.len()).map(|(a, b)| (&force[a][b], &velocity[b][a])))
 }

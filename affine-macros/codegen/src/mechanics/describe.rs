@@ -26,15 +26,12 @@ pub use system::system;
 /// `T` as the sum of its terms, frame after frame.
 pub fn kinetic_energy(arena: &mut Arena, notation: &Notation, parts: &[Kinetic]) -> Sentence {
     let mut sum = Sum::default();
-    parts.iter().for_each(|part| energy_terms(arena, notation, &mut sum, part));
+    for part in parts {
+        // With its weight the energy is that in phi_dot.
+        let frame = if part.is_weighted() { Frame::Flat } else { part.frame };
+        quadratic_terms(arena, notation, &mut sum, frame, &part.terms);
+    }
     sum.of(letters::KINETIC_ENERGY).with(notation.matrices_in(parts.iter().flat_map(|part| &part.terms)))
-}
-
-/// Adds the terms of a kinetic energy.
-fn energy_terms(arena: &mut Arena, notation: &Notation, sum: &mut Sum, kinetic: &Kinetic) {
-    // With its weight the energy is that in phi_dot.
-    let frame = if kinetic.is_weighted() { Frame::Flat } else { kinetic.frame };
-    quadratic_terms(arena, notation, sum, frame, &kinetic.terms);
 }
 
 /// Adds the terms of a quadratic form in the velocity of `frame`.
@@ -46,11 +43,7 @@ pub(super) fn quadratic_terms(
     terms: &[Term],
 ) {
     let half = Rational::HALF;
-    let velocity = match frame {
-        Frame::Body => letters::COMOVING_AFFINE_VELOCITY,
-        Frame::Space => letters::AFFINE_VELOCITY,
-        Frame::Flat => letters::PLACEMENT_VELOCITY,
-    };
+    let velocity = velocity(Momentum::of(frame));
     for term in terms {
         let (coefficient, value) = match &term.value {
             Coefficient::Scalar(c) => (*c, with_a_number(term.kind, velocity)),

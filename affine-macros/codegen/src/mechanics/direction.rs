@@ -1,6 +1,7 @@
 //! Directions in the space of affine velocities, and bases of it.
 
 use crate::algebra::Rational;
+use crate::algebra::ring::above_diagonal;
 
 /// A direction in the space of affine velocities.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,16 +40,9 @@ pub(super) fn entries(count: usize) -> Vec<BasisVector> {
 pub(super) fn invariant(n: usize) -> Vec<BasisVector> {
     let one = || Rational::ONE;
     let mut basis = Vec::new();
-    for a in 0..n {
-        for b in a + 1..n {
-            basis.push(BasisVector {
-                kind: Direction::Shear,
-                entries: vec![(n * a + b, one()), (n * b + a, one())],
-            });
-            basis.push(BasisVector {
-                kind: Direction::Rotation,
-                entries: vec![(n * a + b, one()), (n * b + a, Rational::MINUS_ONE)],
-            });
+    for (a, b) in above_diagonal(n) {
+        for (kind, weight) in [(Direction::Shear, one()), (Direction::Rotation, Rational::MINUS_ONE)] {
+            basis.push(BasisVector { kind, entries: vec![(n * a + b, one()), (n * b + a, weight)] });
         }
     }
     for a in 1..n {

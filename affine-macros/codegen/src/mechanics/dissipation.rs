@@ -6,8 +6,8 @@
 
 mod invariance;
 
-use crate::algebra::ring::{Square, dot, pairs, product, sum, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
+use crate::algebra::ring::{Square, dot, product, sum, table, times, trace_of_product, transpose};
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::symbol::Quantity;
 
 use super::charts::{Chart, Linear};
@@ -15,8 +15,9 @@ use super::equations::Load;
 use super::hessian::Hessian;
 use super::kinetic::Kinetic;
 use super::metrics::Metrics;
-use super::shared::{CentreVelocity, Shared, frame_of, on_momenta};
+use super::shared::{CentreVelocity, Shared, on_momenta};
 use super::term::{Coefficient, Frame, Term};
+use super::transport;
 
 /// A dissipation function.
 #[derive(Clone, Debug)]
@@ -110,13 +111,13 @@ impl Dissipation {
     fn affine_force(&self, shared: &mut Shared, chart: &Chart) -> (Square<Polynomial>, Polynomial) {
         let n = self.dim;
         let phi = chart.placement();
-        let own = Matrix::symbols(shared.arena, chart.momentum.velocity(), n).atoms();
+        let own = chart.velocity(shared.arena).atoms();
         let phi_dot = shared.phi_dot(chart);
         let zero = table(n, |_, _| Polynomial::zero());
         let (mut force, mut push, mut power) = (zero.clone(), zero, Polynomial::zero());
         for part in &self.parts {
             let frame = part.form.frame;
-            let at_home = frame == frame_of(chart);
+            let at_home = frame == chart.frame();
             let velocity = match frame {
                 _ if at_home => own.clone(),
                 Frame::Body => {
@@ -129,16 +130,17 @@ impl Dissipation {
             };
             let velocity = if at_home { velocity } else { shared.matrix(frame.velocity(), &velocity) };
             let drag = shared.matrix(drag(frame), &part.force(&velocity));
-            power = power.add(&dot(pairs(n).map(|(a, b)| (&drag[a][b], &velocity[b][a]))));
+            power = power.add(&trace_of_product(&drag, &velocity));
             match frame {
                 _ if at_home => force = sum(&force, &drag),
-                Frame::Body => push = sum(&push, &product(&drag, &shared.inverse(&phi))),
-                Frame::Space => push = sum(&push, &product(&shared.inverse(&phi), &drag)),
                 Frame::Flat => push = sum(&push, &drag),
+                Frame::Body | Frame::Space => {
+                    push = sum(&push, &transport::momentum(frame, &drag, &shared.inverse(&phi)));
+                }
             }
         }
         let push = shared.matrix(Quantity::Push, &push);
-        let rest = shared.on_own(chart, &push);
+        let rest = transport::momentum(chart.frame(), &push, &phi);
         (sum(&force, &rest), power)
     }
 
@@ -154,13 +156,27 @@ impl Dissipation {
         let (own, inverse_mass) = match velocity {
             CentreVelocity::Fixed => return Vec::new(),
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
-            CentreVelocity::Defined { v_hat, .. } => {
-                let x_dot = shared.x_dot(chart, velocity);
-                return self.drag_on_centre(shared, chart, (&x_dot, v_hat.as_deref()), power);
+            // `Q_tr = -(c_space 1 + c_body phi^-T phi^-1) x_dot`.
+            CentreVelocity::Defined { x_dot, v_hat } => {
+                let x_dot = Polynomial::vector(x_dot);
+                let slope = |shared: &mut Shared, frame: Frame| match frame {
+                    Frame::Body => {
+                        let inverse = shared.inverse(&chart.placement());
+                        let v_hat = match v_hat {
+                            Some(known) => Polynomial::vector(known),
+                            None => shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, &x_dot)),
+                        };
+                        times(&transpose(&inverse), &v_hat)
+                    }
+                    _ => x_dot.clone(),
+                };
+                let force = self.drag_on_centre(shared, slope);
+                *power = power.add(&dot(force.iter().zip(&x_dot)));
+                return force;
             }
         };
         let phi = chart.placement();
-        let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
+        let p = Polynomial::vector(&chart.p);
         let p_hat = match linear {
             Linear::Body => p.clone(),
             Linear::Space if self.centre.iter().any(|(frame, _)| frame != own) || *own == Frame::Body => {
@@ -175,57 +191,35 @@ impl Dissipation {
             (Linear::Space, Frame::Body) => times(&phi, &per_mass(&p_hat)),
             _ => per_mass(&p),
         };
-        let mut force = vec![Polynomial::zero(); self.dim];
-        for (frame, coefficient) in &self.centre {
-            // p = m v in the frame of the mass: there the force is a multiple of the momentum.
-            let slope = match (frame == own, linear, frame) {
-                (true, ..) => per_mass(&p),
-                (false, Linear::Body, _) => times(&transpose(&phi), &times(&phi, &per_mass(&p))),
-                (false, Linear::Space, Frame::Space) => velocity.clone(),
-                (false, Linear::Space, _) => {
-                    let inverse = shared.inverse(&phi);
-                    let v_hat =
-                        shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, &per_mass(&p)));
-                    times(&transpose(&inverse), &v_hat)
-                }
-            };
-            for (sum, slope) in force.iter_mut().zip(&slope) {
-                sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
+        // p = m v in the frame of the mass: there the force is a multiple of the momentum.
+        let slope = |shared: &mut Shared, frame: Frame| match (frame == *own, linear, frame) {
+            (true, ..) => per_mass(&p),
+            (false, Linear::Body, _) => times(&transpose(&phi), &times(&phi, &per_mass(&p))),
+            (false, Linear::Space, Frame::Space) => velocity.clone(),
+            (false, Linear::Space, _) => {
+                let inverse = shared.inverse(&phi);
+                let v_hat = shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, &per_mass(&p)));
+                times(&transpose(&inverse), &v_hat)
             }
-        }
-        let force = shared.vector(Quantity::CentreDrag, &force);
+        };
+        let force = self.drag_on_centre(shared, slope);
         *power = power.add(&dot(force.iter().zip(&velocity)));
         force
     }
 
-    /// `Q_tr = -(c_space 1 + c_body phi^-T phi^-1) x_dot`. Adds its power.
+    /// The force on a centre of mass along which the coefficient of a frame has this slope.
     fn drag_on_centre(
         &self,
         shared: &mut Shared,
-        chart: &Chart,
-        (x_dot, v_hat): (&[Polynomial], Option<&[Expr]>),
-        power: &mut Polynomial,
+        slope: impl Fn(&mut Shared, Frame) -> Vec<Polynomial>,
     ) -> Vec<Polynomial> {
         let mut force = vec![Polynomial::zero(); self.dim];
         for (frame, coefficient) in &self.centre {
-            let slope = match frame {
-                Frame::Body => {
-                    let inverse = shared.inverse(&chart.placement());
-                    let v_hat = match v_hat {
-                        Some(known) => known.iter().map(|v| Polynomial::atom(*v)).collect(),
-                        None => shared.vector(Quantity::ComovingCentreVelocity, &times(&inverse, x_dot)),
-                    };
-                    times(&transpose(&inverse), &v_hat)
-                }
-                _ => x_dot.to_vec(),
-            };
-            for (sum, slope) in force.iter_mut().zip(&slope) {
+            for (sum, slope) in force.iter_mut().zip(&slope(shared, *frame)) {
                 sum.add_product(slope, coefficient, &Rational::MINUS_ONE);
             }
         }
-        let force = shared.vector(Quantity::CentreDrag, &force);
-        *power = power.add(&dot(force.iter().zip(x_dot)));
-        force
+        shared.vector(Quantity::CentreDrag, &force)
     }
 }
 

@@ -2,10 +2,15 @@
 
 use rustc_hash::FxHashSet;
 
+use crate::algebra::definitions::used;
 use crate::algebra::ring::table;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial, Rational};
 
+use crate::symbol::Symbol;
+
 use super::charts::{Chart, Coordinate};
+use super::metric::share;
 
 /// Straight-line system: quantities that several equations share, then the rates of the coordinates.
 #[derive(Clone, Debug, Default)]
@@ -44,29 +49,50 @@ pub enum Form {
     ThroughVelocity,
 }
 
+impl Load {
+    /// The force on a coordinate.
+    pub(super) fn force(&self, z: Coordinate) -> Polynomial {
+        listed(&self.forces)(z).unwrap_or_else(Polynomial::zero)
+    }
+
+    /// The load with other forms of the same polynomials.
+    pub(super) fn mapped(&self, each: &mut impl FnMut(&Polynomial) -> Polynomial) -> Self {
+        Self {
+            shared: self.shared.iter().map(|(s, p)| (*s, each(p))).collect(),
+            kernels: self.kernels.iter().map(|kernel| kernel.with_arguments(&mut *each)).collect(),
+            forces: self.forces.iter().map(|(z, p)| (*z, each(p))).collect(),
+            work: self.work.as_ref().map(|(s, p)| (*s, each(p))),
+        }
+    }
+
+    /// What it moves by itself, of the coordinates that determine the others.
+    pub(super) fn alone(self, chart: &Chart) -> System {
+        let rates = chart.independent().into_iter().map(|z| (z, chart.symbol(z), self.force(z))).collect();
+        System { rates, shared: self.shared, kernels: self.kernels, work: self.work }
+    }
+}
+
 impl System {
     /// Under a constraint: rates of the affine momentum projected, and entries of momentum and velocity that are linear
     /// in others written through those.
     pub(super) fn confined(mut self, chart: &Chart, velocity: &Matrix) -> Self {
         let Some(group) = chart.confined else { return self };
-        let rate = |a, b| {
-            let found = self.rates.iter().find(|(z, _, _)| *z == Coordinate::M(a, b));
-            found.map_or_else(Polynomial::zero, |(_, _, rate)| rate.clone())
-        };
-        let projected = group.projected(&table(chart.dim, rate));
+        let projected = group.projected(&table(chart.dim, |a, b| self.rate(Coordinate::M(a, b))));
         for (z, _, rate) in &mut self.rates {
             if let Coordinate::M(a, b) = z {
                 *rate = projected[*a][*b].clone();
             }
         }
         let (momenta, velocities) = (chart.dependent(), group.dependent(velocity));
-        let listed = |list: &[(Expr, Polynomial)], symbol: Expr| list.iter().any(|(s, _)| *s == symbol);
-        self.rates.retain(|(_, symbol, _)| !listed(&momenta, *symbol));
-        self.shared.retain(|(symbol, _)| !listed(&velocities, *symbol));
-        let value = |atom: Expr| {
-            momenta.iter().chain(&velocities).find(|(s, _)| *s == atom).map(|(_, value)| value.clone())
-        };
-        self.substitute(&value)
+        self.rates.retain(|(_, symbol, _)| listed(&momenta)(*symbol).is_none());
+        self.shared.retain(|(symbol, _)| listed(&velocities)(*symbol).is_none());
+        self.substitute(&listed(&[momenta, velocities].concat()))
+    }
+
+    /// The rate of a coordinate; zero of one that is not among those that move.
+    pub(super) fn rate(&self, z: Coordinate) -> Polynomial {
+        let found = self.rates.iter().find(|(known, ..)| *known == z);
+        found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone())
     }
 
     /// Replaces atoms by polynomials in every definition and every rate.
@@ -86,12 +112,7 @@ impl System {
 
     /// Adds quantities and what they add to the rates.
     pub fn add(&mut self, load: &Load) {
-        for (symbol, definition) in &load.shared {
-            // Two loads may share a quantity; either definition has its value.
-            if !self.shared.iter().any(|(known, _)| known == symbol) {
-                self.shared.push((*symbol, definition.clone()));
-            }
-        }
+        share(&mut self.shared, load.shared.iter().cloned());
         self.kernels.extend(load.kernels.iter().cloned());
         for (coordinate, force) in &load.forces {
             for (_, _, rate) in self.rates.iter_mut().filter(|(z, _, _)| z == coordinate) {
@@ -104,17 +125,28 @@ impl System {
         }
     }
 
+    /// Adds another system, with the rates of what moves there alone.
+    pub(super) fn join(&mut self, other: &Self) {
+        for (z, symbol, _) in &other.rates {
+            if self.rates.iter().all(|(known, ..)| known != z) {
+                self.rates.push((*z, *symbol, Polynomial::zero()));
+            }
+        }
+        self.add(&Load {
+            shared: other.shared.clone(),
+            kernels: other.kernels.clone(),
+            forces: other.rates.iter().map(|(z, _, rate)| (*z, rate.clone())).collect(),
+            work: other.work.clone(),
+        });
+    }
+
     /// Drops shared quantities and calls that nothing uses, and puts in place those that are a single constant or atom.
     pub fn tidied(mut self, arena: &Arena) -> Self {
         let trivial: Vec<(Expr, Polynomial)> = self
             .shared
             .iter()
             .filter(|(_, p)| {
-                p.terms().len() == 0
-                    || (p.terms().len() == 1
-                        && p.terms().all(|(m, c)| {
-                            m.is_empty() || (m.len() == 1 && c.is_one() && arena.as_symbol(m[0]).is_some())
-                        }))
+                p.as_constant().is_some() || p.as_atom().is_some_and(|atom| arena.as_symbol(atom).is_some())
             })
             .cloned()
             .collect();
@@ -146,12 +178,17 @@ impl System {
     }
 
     /// Definitions, arguments of calls, rates.
-    fn polynomials(&self) -> impl Iterator<Item = &Polynomial> {
+    pub(super) fn polynomials(&self) -> impl Iterator<Item = &Polynomial> {
         let shared = self.shared.iter().map(|(_, p)| p);
         shared
             .chain(self.kernels.iter().flat_map(Kernel::inputs))
             .chain(self.rates.iter().map(|(_, _, p)| p))
             .chain(self.work.iter().map(|(_, p)| p))
+    }
+
+    /// What moves.
+    pub fn moved(&self, arena: &Arena) -> Vec<Symbol> {
+        self.rates.iter().map(|(_, symbol, _)| arena.symbol_of(*symbol)).collect()
     }
 
     /// The number of definitions, arguments and rates that use a symbol.
@@ -161,13 +198,6 @@ impl System {
 
     /// Every symbol that a definition, a call or a rate uses.
     fn symbols(&self, arena: &Arena) -> FxHashSet<Expr> {
-        let mut found = FxHashSet::default();
-        for polynomial in self.polynomials() {
-            polynomial.any_symbol(arena, &mut |symbol| {
-                found.insert(symbol);
-                false
-            });
-        }
-        found
+        used(arena, self.polynomials())
     }
 }

@@ -7,7 +7,7 @@
 use crate::algebra::Polynomial;
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, difference, outer, product, sum, table, times, transpose};
+use crate::algebra::ring::{Square, difference, outer, product, sum, table, times, trace, transpose};
 
 use super::charts::{Chart, Coordinate, Momentum};
 use super::conserved::Momenta;
@@ -107,5 +107,5 @@ pub(super) fn power_rate(k: usize, [m, m_dot]: &Moving<Square<Residue>>) -> Resi
     for _ in 1..k {
         power = product(m, &power);
     }
-    (0..m.len()).fold(Residue::ZERO, |trace, a| trace.add(&power[a][a]))
+    trace(&power)
 }

@@ -13,7 +13,9 @@ use rustc_hash::FxHashMap;
 use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, adjugate, determinant, product, table};
+use crate::algebra::ring::{
+    Ring, Square, adjugate, determinant, difference, multiple, product, scalar, sum, table,
+};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::{Quantity, Symbol};
 
@@ -57,7 +59,7 @@ impl GroupPoint {
             Some(Constraint::Isochoric) => unimodular(&point.sample(arena, &chart.phi)),
             Some(Constraint::Rigid | Constraint::Conformal) => {
                 let rotation = cayley(&Constraint::Rigid.projected(&point.sample(arena, &chart.phi)));
-                scaled(&rotation, scale)
+                multiple(&rotation, &scale)
             }
         };
         let momentum = point.sample(arena, &chart.m);
@@ -85,7 +87,7 @@ impl GroupPoint {
 
     /// A point at `phi = 1`, without other relations.
     pub(super) fn undeformed(arena: &Arena, chart: &Chart) -> Self {
-        let one = table(chart.dim, |i, a| Residue::from_rational(&Rational::from(i64::from(i == a))));
+        let one = scalar(chart.dim, &Residue::number(&Rational::ONE));
         let entries = chart.phi.0.concat().into_iter().zip(one.concat());
         let named = entries.filter_map(|(symbol, value)| Some((arena.as_symbol(symbol)?.clone(), value)));
         Self { seed: 0, values: named.collect(), known: RefCell::default() }
@@ -150,31 +152,17 @@ impl GroupPoint {
 
 /// The inverse matrix.
 pub(super) fn inverse(m: &Square<Residue>) -> Square<Residue> {
-    scaled(&adjugate(m), determinant(m).recip().unwrap_or(Residue::UNKNOWN))
-}
-
-fn inverse_determinant(m: &Square<Residue>) -> Residue {
-    never_missing(determinant(m).recip(), "a random matrix is regular", Residue::UNKNOWN)
-}
-
-fn scaled(m: &Square<Residue>, factor: Residue) -> Square<Residue> {
-    table(m.len(), |i, j| m[i][j].mul(&factor))
+    multiple(&adjugate(m), &determinant(m).recip().unwrap_or(Residue::UNKNOWN))
 }
 
 /// The matrix with its first row divided by its determinant.
 fn unimodular(m: &Square<Residue>) -> Square<Residue> {
-    let factor = inverse_determinant(m);
+    let factor = never_missing(determinant(m).recip(), "a random matrix is regular", Residue::UNKNOWN);
     table(m.len(), |i, j| if i == 0 { m[i][j].mul(&factor) } else { m[i][j] })
 }
 
 /// Cayley's rotation `(1 - W)^-1 (1 + W)` of a skew `W`.
 fn cayley(w: &Square<Residue>) -> Square<Residue> {
-    let unit_plus = |sign: &Rational| {
-        table(w.len(), |i, j| {
-            let mut entry = Residue::from_rational(&Rational::from(i64::from(i == j)));
-            entry.plus(&w[i][j], sign);
-            entry
-        })
-    };
-    product(&inverse(&unit_plus(&Rational::MINUS_ONE)), &unit_plus(&Rational::ONE))
+    let one = scalar(w.len(), &Residue::number(&Rational::ONE));
+    product(&inverse(&difference(&one, w)), &sum(&one, w))
 }

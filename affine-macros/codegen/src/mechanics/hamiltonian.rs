@@ -1,6 +1,8 @@
 //! Inverse Legendre transformation and Hamiltonian, in any chart that admits them as polynomials.
 
-use crate::algebra::ring::{above_diagonal, dot, pairs, product, table, times, transpose};
+use crate::algebra::ring::{
+    Square, above_diagonal, pairs, product, table, times, trace, trace_of_product, transpose,
+};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
@@ -100,6 +102,12 @@ impl Hamiltonian {
         pairs(self.dim).map(product).sum::<Polynomial>().scaled(&Rational::HALF)
     }
 
+    /// `dO_k/dX_l`, constant for a quadratic form: of entries row-major, `l` transposed.
+    pub fn slopes(&self) -> Square<Polynomial> {
+        let n = self.dim;
+        table(n * n, |k, l| self.velocity[k / n][k % n].derivative(self.momentum.0[l % n][l / n]))
+    }
+
     /// Is the energy a general tensor in an affine frame? Then nothing of its own momentum is conserved:
     /// `[X, O(X)] = 0` for every `X` only where `O` is a multiple of `X` and the identity.
     pub fn is_tensor(&self) -> bool {
@@ -152,7 +160,7 @@ impl Hamiltonian {
         let Some((frame, inverse_mass)) = &self.translation else { return Polynomial::zero() };
         let squares = match (frame, chart.linear) {
             (Frame::Body, Some(Linear::Space)) => comoving(chart),
-            _ => chart.p.iter().map(|p| Polynomial::atom(*p)).collect(),
+            _ => Polynomial::vector(&chart.p),
         };
         squares.iter().map(|p| p.mul(p).mul(inverse_mass).scaled(&Rational::HALF)).sum()
     }
@@ -166,39 +174,32 @@ impl Isotropic {
     }
 
     /// `H` of an affine spin.
-    pub fn energy(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+    pub fn energy(&self, spin: &Square<Polynomial>) -> Polynomial {
         self.casimirs(spin).add(&self.skew_norm(spin))
     }
 
     /// `C(2)/(2 alpha) + C(1)^2/(2 beta)` of an affine spin, and what there is of `C(3)`.
-    pub fn casimirs(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
-        let c1: Polynomial = spin.iter().enumerate().map(|(a, row)| &row[a]).sum();
-        let c2 = dot(pairs(spin.len()).map(|(a, b)| (&spin[a][b], &spin[b][a])));
+    pub fn casimirs(&self, spin: &Square<Polynomial>) -> Polynomial {
+        let (c1, c2) = (trace(spin), trace_of_product(spin, spin));
         let mut sum = c2.mul(&self.casimir2).add(&c1.mul(&c1).mul(&self.casimir1_squared));
         sum = sum.scaled(&Rational::HALF);
         if !self.casimir3.is_zero() {
-            sum.add_product(&cubed_trace(spin), &self.casimir3, &Rational::THIRD);
+            let c3 = trace_of_product(&product(spin, spin), spin);
+            sum.add_product(&c3, &self.casimir3, &Rational::THIRD);
         }
         sum
     }
 
     /// `|W|^2/(2 mu)` of an affine spin.
-    pub fn skew_norm(&self, spin: &[Vec<Polynomial>]) -> Polynomial {
+    pub fn skew_norm(&self, spin: &Square<Polynomial>) -> Polynomial {
         let squares = above_diagonal(spin.len()).map(|(a, b)| spin[a][b].sub(&spin[b][a])).map(|w| w.mul(&w));
         squares.sum::<Polynomial>().mul(&self.skew).scaled(&Rational::HALF)
     }
 }
 
-/// `tr X^3`.
-fn cubed_trace(spin: &[Vec<Polynomial>]) -> Polynomial {
-    let square = product(&spin.to_vec(), &spin.to_vec());
-    dot(pairs(spin.len()).map(|(a, b)| (&square[a][b], &spin[b][a])))
-}
-
 /// `p_hat = phi^T p`.
 fn comoving(chart: &Chart) -> Vec<Polynomial> {
-    let p: Vec<Polynomial> = chart.p.iter().map(|p| Polynomial::atom(*p)).collect();
-    times(&transpose(&chart.placement()), &p)
+    times(&transpose(&chart.placement()), &Polynomial::vector(&chart.p))
 }
 
 /// The chart's affine momentum, or `Sigma = I(O) - x p^T` where that is the total one.

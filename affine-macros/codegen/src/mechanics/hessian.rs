@@ -37,6 +37,11 @@ pub struct Block {
 }
 
 impl Block {
+    /// The entries that its basis vectors start with: all of them, where these are single.
+    pub(super) fn places(&self) -> Vec<usize> {
+        self.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k).collect()
+    }
+
     /// The eigenvalue of a block of size one, with respect to the norm `tr(O O^T)`.
     pub fn eigenvalue(&self) -> Option<Polynomial> {
         let [square] = self.squares.as_slice() else { return None };
@@ -150,12 +155,10 @@ impl Hessian {
             self.blocks.iter_mut().for_each(|block| block.seen_from(congruent));
             return self;
         }
-        let slopes = congruent.energy.gradient(&velocities);
-        let form: Vec<Vec<Polynomial>> = slopes.iter().map(|slope| slope.gradient(&velocities)).collect();
+        let form = congruent.energy.hessian(&velocities);
         let mut blocks = blocks(&form, &entries(form.len()));
         for block in &mut blocks {
-            let places = block.basis.iter().filter_map(|vector| vector.entries.first()).map(|(k, _)| *k);
-            let places: Vec<usize> = places.collect();
+            let places = block.places();
             block.squares = places.iter().map(|k| congruent.weights[*k][*k].clone()).collect();
             block.velocities = places.iter().map(|k| congruent.velocities[*k].clone()).collect();
         }

@@ -132,6 +132,11 @@ impl Kinetic {
         kinetic
     }
 
+    /// One of its internal terms, by its place and energy, without the others.
+    pub fn only(&self, place: usize, energy: &Polynomial) -> Self {
+        Self { internal: vec![(place, energy.clone())], ..self.clone() }
+    }
+
     /// The internal energy `T_int`.
     pub fn internal_energy(&self) -> Polynomial {
         self.internal.iter().map(|(_, energy)| energy).sum()
@@ -145,9 +150,7 @@ impl Kinetic {
 
     /// `d^2 T_int / dO_k dO_l` on the entries of the velocity, row-major.
     pub fn form(&self) -> Square<Polynomial> {
-        let velocities = self.velocity.0.concat();
-        let slopes = self.internal_energy().gradient(&velocities);
-        slopes.iter().map(|slope| slope.gradient(&velocities)).collect()
+        self.internal_energy().hessian(&self.velocity.0.concat())
     }
 }
 

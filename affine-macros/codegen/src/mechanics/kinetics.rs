@@ -12,6 +12,7 @@ mod lagrangian;
 mod ways;
 
 use crate::algebra::ring::{Square, pairs, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Matrix, Polynomial};
 
 use super::brackets::{bracket, gradient};
@@ -40,13 +41,11 @@ pub struct Kinetics {
 impl Kinetics {
     /// Of an energy that is a polynomial in the coordinates of a chart.
     pub fn polynomial(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Self {
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim);
-        let (slopes, positions): (Vec<_>, Vec<_>) = gradient(chart, h)
-            .into_iter()
-            .partition(|(y, _)| matches!(y, Coordinate::P(_) | Coordinate::M(..)));
+        let velocity = chart.velocity(arena);
+        let (slopes, positions): (Vec<_>, Vec<_>) =
+            gradient(chart, h).into_iter().partition(|(y, _)| y.is_momentum());
         let force = |z: Coordinate| (z, paired(chart, z, &positions));
-        let momenta =
-            chart.coordinates().into_iter().filter(|z| matches!(z, Coordinate::P(_) | Coordinate::M(..)));
+        let momenta = chart.coordinates().into_iter().filter(|z| z.is_momentum());
         let shared =
             pairs(chart.dim).map(|(a, b)| (velocity.0[a][b], h.derivative(chart.m.0[b][a]))).collect();
         let forces = momenta.map(force).filter(|(_, force)| !force.is_zero()).collect();
@@ -62,10 +61,7 @@ impl Kinetics {
     pub fn affine_velocity(&self, form: Form) -> Square<Polynomial> {
         let written = |a: usize, b: usize| match form {
             Form::ThroughVelocity => Polynomial::atom(self.velocity.0[a][b]),
-            Form::Expanded => {
-                let found = self.slopes.iter().find(|(y, _)| *y == Coordinate::M(b, a));
-                found.map_or_else(Polynomial::zero, |(_, slope)| slope.clone())
-            }
+            Form::Expanded => listed(&self.slopes)(Coordinate::M(b, a)).unwrap_or_else(Polynomial::zero),
         };
         table(self.chart.dim, written)
     }

@@ -1,10 +1,10 @@
 //! What potential and forces add to Hamilton's equations.
 
+use crate::algebra::Arena;
 use crate::algebra::ring::table;
-use crate::algebra::{Arena, Expr, Kernel, Matrix, Polynomial};
+use crate::algebra::substitute::listed;
 
 use super::charts::{Chart, Coordinate};
-use super::constraint::Constraint;
 use super::equations::Load;
 use super::forces::Forces;
 use super::potential::Potential;
@@ -23,10 +23,7 @@ pub fn beside(
     let mut loads = Vec::new();
     loads.extend(potential.map(|u| of_potential(arena, chart, u, forces)));
     let pushes = forces.loads(arena, chart, centre).into_iter();
-    loads.extend(pushes.map(|load| match chart.confined {
-        Some(group) => load.confined(arena, chart, group),
-        None => load,
-    }));
+    loads.extend(pushes.map(|load| load.confined(arena, chart)));
     loads
 }
 
@@ -37,27 +34,17 @@ pub(super) fn of_potential(arena: &mut Arena, chart: &Chart, u: &Potential, forc
 }
 
 impl Load {
-    /// The same for a motion confined to a group: of the forces on the affine momentum the part that acts on its Lie
+    /// The same, where the motion is confined to a group: of the forces on the affine momentum the part that acts on its Lie
     /// algebra, and entries of momentum and velocity that are linear in others written through those.
-    pub fn confined(self, arena: &mut Arena, chart: &Chart, group: Constraint) -> Self {
-        let on_spin = |a, b| {
-            let found = self.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
-            found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
-        };
-        let projected = group.projected(&table(chart.dim, on_spin));
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim);
-        let dependent = [chart.dependent(), group.dependent(&velocity)].concat();
-        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
-        let each = |p: &Polynomial| p.substitute(&value);
-        let forces = self.forces.iter().map(|(z, force)| match z {
-            Coordinate::M(a, b) => (*z, each(&projected[*a][*b])),
-            _ => (*z, each(force)),
-        });
-        Self {
-            forces: forces.collect(),
-            shared: self.shared.iter().map(|(symbol, p)| (*symbol, each(p))).collect(),
-            kernels: self.kernels.iter().map(|kernel: &Kernel| kernel.with_arguments(each)).collect(),
-            work: self.work.as_ref().map(|(symbol, power)| (*symbol, each(power))),
+    pub fn confined(mut self, arena: &mut Arena, chart: &Chart) -> Self {
+        let Some(group) = chart.confined else { return self };
+        let projected = group.projected(&table(chart.dim, |a, b| self.force(Coordinate::M(a, b))));
+        for (z, force) in &mut self.forces {
+            if let Coordinate::M(a, b) = z {
+                *force = projected[*a][*b].clone();
+            }
         }
+        let dependent = [chart.dependent(), group.dependent(&chart.velocity(arena))].concat();
+        self.mapped(&mut |p| p.substitute(&listed(&dependent)))
     }
 }

@@ -57,11 +57,8 @@ impl Stated {
     /// `tr X^2 = -tr X X^T` and `|W|^2 = 2 tr X X^T` on skew `X`.
     fn unconfined_eigenvalues(&self) -> [(Direction, Polynomial); 3] {
         let sum = self.invariants();
-        let two = Rational::from(2);
-        let mut rotation = sum.skew.scaled(&two);
-        rotation.add_scaled(&sum.casimir2, &Rational::MINUS_ONE);
-        let mut dilatation = sum.casimir1_squared.scaled(&Rational::whole(self.dim));
-        dilatation.add_scaled(&sum.casimir2, &Rational::ONE);
+        let rotation = sum.skew.scaled(&Rational::from(2)).sub(&sum.casimir2);
+        let dilatation = sum.casimir1_squared.scaled(&Rational::whole(self.dim)).add(&sum.casimir2);
         [
             (Direction::Shear, sum.casimir2),
             (Direction::Rotation, rotation),
@@ -76,13 +73,18 @@ impl Stated {
         let spin = Matrix::symbols(arena, self.frame.momentum(), self.dim);
         let rows = spin.atoms();
         let internal = self.parts.iter().map(|(place, part)| (*place, part.energy(&rows))).collect();
+        Kinetic { internal, ..self.of_the_centre(arena, spin) }
+    }
+
+    /// The energy of the centre of mass, without an internal form in `velocity`.
+    fn of_the_centre(&self, arena: &mut Arena, velocity: Matrix) -> Kinetic {
         Kinetic {
             constraint: None,
             dim: self.dim,
             frame: self.frame,
-            velocity: spin,
+            velocity,
             terms: Vec::new(),
-            internal,
+            internal: Vec::new(),
             translation: self.mass(arena),
             congruent: None,
         }
@@ -91,10 +93,9 @@ impl Stated {
     /// The places of the terms that are zero on all momenta that the constraint leaves, `X = P X`.
     pub fn vanishing(&self, arena: &mut Arena) -> Vec<usize> {
         let on_momenta = Kinetic { constraint: self.constraint, ..self.on_momenta(arena) };
-        let parts = on_momenta.internal.iter();
-        let alone =
-            |part: &(usize, Polynomial)| Kinetic { internal: vec![part.clone()], ..on_momenta.clone() };
-        parts.filter(|part| Hessian::new(&alone(part)).is_zero()).map(|(place, _)| *place).collect()
+        let vanishes =
+            |(place, energy): &&(usize, Polynomial)| Hessian::new(&on_momenta.only(*place, energy)).is_zero();
+        on_momenta.internal.iter().filter(vanishes).map(|(place, _)| *place).collect()
     }
 
     /// The kinetic energy on the velocity side, `I`, `A`, `B` from `I + A = 1/a`, `I - A = 1/(2c - a)`,
@@ -104,16 +105,8 @@ impl Stated {
     /// directions: of the three reciprocals those that it leaves free are taken, and the others do not matter.
     pub fn kinetic(&self, arena: &mut Arena) -> Option<Kinetic> {
         if self.is_cubic() {
-            return Some(Kinetic {
-                constraint: None,
-                dim: self.dim,
-                frame: self.frame,
-                velocity: Matrix::symbols(arena, self.frame.velocity(), self.dim),
-                terms: Vec::new(),
-                internal: Vec::new(),
-                translation: self.mass(arena),
-                congruent: None,
-            });
+            let velocity = Matrix::symbols(arena, self.frame.velocity(), self.dim);
+            return Some(self.of_the_centre(arena, velocity));
         }
         let mut reciprocal = |(_, value): (Direction, Polynomial)| -> Option<Polynomial> {
             let value = value.expression(arena);
@@ -127,16 +120,11 @@ impl Stated {
             (reciprocal(shear)?, reciprocal(rotation)?, reciprocal(dilatation)?);
         let half = Rational::HALF;
         let nth = Rational::one_over(self.dim);
-        let combined = |x: &Polynomial, y: &Polynomial, sign: &Rational, weight: &Rational| {
-            let mut sum = x.clone();
-            sum.add_scaled(y, sign);
-            sum.scaled(weight)
-        };
         let inertia = if self.frame == Frame::Space { TermKind::SpaceInertia } else { TermKind::BodyInertia };
         let coefficients = [
-            (TermKind::Casimir2, combined(&shear, &rotation, &Rational::MINUS_ONE, &half)),
-            (TermKind::Casimir1Squared, combined(&dilatation, &shear, &Rational::MINUS_ONE, &nth)),
-            (inertia, combined(&shear, &rotation, &Rational::ONE, &half)),
+            (TermKind::Casimir2, shear.sub(&rotation).scaled(&half)),
+            (TermKind::Casimir1Squared, dilatation.sub(&shear).scaled(&nth)),
+            (inertia, shear.add(&rotation).scaled(&half)),
         ];
         let mut terms: Vec<Term> = coefficients
             .into_iter()

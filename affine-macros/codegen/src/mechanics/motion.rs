@@ -6,7 +6,7 @@
 //! depends on the placement where there are masses in both.
 
 use crate::algebra::ring::{Square, table};
-use crate::algebra::{Arena, Matrix, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::charts::{Chart, Linear, Momentum};
 use super::constraint::Constraint;
@@ -16,7 +16,7 @@ use super::hamiltonian::Hamiltonian;
 use super::hessian::NumericBlock;
 use super::kinetic::Kinetic;
 use super::kinetics::Kinetics;
-use super::metric::Definitions;
+use super::metric::{Definitions, share};
 use super::mixed::{Internal, Legendre, Masses};
 use super::momentum_side::Stated;
 use super::shared::CentreVelocity;
@@ -213,16 +213,15 @@ impl Motion {
             return self.polynomial().map_or(CentreVelocity::Fixed, |(_, h)| h.centre_velocity());
         }
         let n = self.dim();
-        let mut symbols = |of: Quantity| (1..=n).map(|i| arena.symbol(of.at([i]))).collect();
-        let x_dot = symbols(Quantity::CentreVelocity);
-        let v_hat = self.masses.body.map(|_| symbols(Quantity::ComovingCentreVelocity));
+        let x_dot = arena.components(Quantity::CentreVelocity, n);
+        let v_hat = self.masses.body.map(|_| arena.components(Quantity::ComovingCentreVelocity, n));
         CentreVelocity::Defined { x_dot, v_hat }
     }
 
     /// The velocity `(dH/dM)^T` of the chart under the name that forces know, where the energy has another.
     pub fn velocity_names(&self, arena: &mut Arena, chart: &Chart) -> Load {
         let Some(internal) = self.factorised() else { return Load::default() };
-        let symbols = Matrix::symbols(arena, chart.momentum.velocity(), chart.dim).0.concat();
+        let symbols = chart.velocity(arena).0.concat();
         let values = internal.velocity.0.concat();
         let renamed = symbols.into_iter().zip(values).filter(|(name, symbol)| name != symbol);
         let shared = renamed.map(|(name, symbol)| (name, Polynomial::atom(symbol))).collect();
@@ -249,9 +248,7 @@ impl Motion {
         };
         if chart.linear.is_some() && !self.moves_in_hamiltonian() {
             let (_, definitions) = self.masses.velocity(arena)?;
-            let fresh = definitions.into_iter().filter(|(s, _)| !shared.iter().any(|(known, _)| known == s));
-            let fresh: Definitions = fresh.collect();
-            shared.extend(fresh);
+            share(&mut shared, definitions);
             energy.add_scaled(&self.masses.energy(arena, chart), &Rational::ONE);
         }
         Some((shared, energy))

@@ -18,8 +18,9 @@ mod sentence;
 mod sum;
 mod symbols;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
+use crate::algebra::definitions::used;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::Symbol;
 
@@ -34,7 +35,7 @@ pub use letter::Letter;
 pub use matrix_name::MatrixName;
 pub use names::Notation;
 pub use sentence::{Exponent, Sentence, Summand};
-pub(super) use sentence::{commutator, product, rate, slope, trace};
+pub(super) use sentence::{commutator, half, placement, product, rate, slope, trace};
 pub(super) use sum::Sum;
 pub use symbols::{FUNCTIONS, SYMBOLS, is_symbol};
 
@@ -110,13 +111,7 @@ impl<'a> Notation<'a> {
         arena: &mut Arena,
         polynomials: impl Iterator<Item = &'p Polynomial>,
     ) -> Vec<Sentence> {
-        let mut used = FxHashSet::default();
-        for polynomial in polynomials {
-            polynomial.any_symbol(arena, &mut |symbol| {
-                used.insert(symbol);
-                false
-            });
-        }
+        let used = used(arena, polynomials);
         let of_block = |(entries, definition): &(Vec<Expr>, Sentence)| {
             entries.iter().any(|entry| used.contains(entry)).then(|| definition.clone())
         };

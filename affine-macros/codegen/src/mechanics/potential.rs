@@ -26,6 +26,7 @@ mod volume;
 mod writing;
 
 use crate::algebra::residue::vanishes;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr};
 use crate::symbol::Quantity;
 
@@ -105,8 +106,7 @@ impl Potential {
         let bases: Vec<(Expr, Base)> =
             Base::all(dim).into_iter().map(|base| (base.symbol(arena), base)).collect();
         let gradient = arena.gradient(energy, &|found| bases.iter().any(|(symbol, _)| *symbol == found));
-        let slope =
-            |wanted: Expr| gradient.iter().find(|(symbol, _)| *symbol == wanted).map(|(_, slope)| *slope);
+        let slope = listed(&gradient);
         let slopes = bases.into_iter().filter_map(|(symbol, base)| Some((base, slope(symbol)?)));
         slopes.filter(|(_, slope)| !vanishes(arena, *slope)).collect()
     }

@@ -21,7 +21,7 @@ mod passing;
 pub mod rotation;
 pub mod turn;
 
-use crate::algebra::{Arena, Expr};
+use crate::algebra::{Arena, Expr, Polynomial};
 
 use super::body::Body;
 use super::charts::{Chart, Coordinate, Linear, Momentum};
@@ -151,13 +151,13 @@ impl Reduction {
         let taken = |(carried, mut system)| {
             let conserved = Conserved::of(chart, &mut system, momenta_may_rest);
             let turn = Turn::of(chart, &conserved).filter(|_| wanted.rotations);
-            let turned = turn.as_ref().map(|turn| turn.taken(&system));
-            system = turned.unwrap_or(system).tidied(arena);
-            let conserved = match momenta_may_rest {
-                true => conserved.with_components(&mut system),
-                false => conserved,
-            };
-            Self { carried, conserved, turn, system, ..self.clone() }
+            let mut way = Self { carried, conserved, turn, ..self.clone() };
+            let taken = system.substitute(&way.gauge());
+            way.system = taken.tidied(arena);
+            if momenta_may_rest {
+                way.conserved = way.conserved.with_components(&mut way.system);
+            }
+            way
         };
         ways.map(taken).collect()
     }
@@ -167,9 +167,10 @@ impl Reduction {
         self.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect()
     }
 
-    /// Components of the state that vanish.
-    pub fn gauge(&self) -> &[Expr] {
-        self.turn.as_ref().map_or(&[], |turn| &turn.vanishing)
+    /// Zero for components of the state that vanish.
+    pub fn gauge(&self) -> impl Fn(Expr) -> Option<Polynomial> {
+        let vanishing = self.turn.as_ref().map_or(&[][..], |turn| &turn.vanishing);
+        |atom| vanishing.contains(&atom).then(Polynomial::zero)
     }
 
     /// With what is left in groups.

@@ -1,6 +1,6 @@
 //! The equations as `q' = V(p)`, `p' = F(t, q)`: what Nystrom methods integrate.
 
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::{Arena, Expr};
 
 use super::body::Body;
 use super::charts::Coordinate;
@@ -30,7 +30,6 @@ pub fn second_order(
 ) -> Option<SecondOrder> {
     let split = splitting(arena, (h, body), reduction)?;
     let [kinetic, kick] = split.pieces.as_slice() else { return None };
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
     let half = |quantities: [Quantity; 2]| -> Vec<Expr> {
         let groups = reduction.states.iter().filter(|(quantity, _)| quantities.contains(quantity));
         groups.flat_map(|(_, symbols)| symbols.clone()).collect()
@@ -40,7 +39,7 @@ pub fn second_order(
         half([Quantity::LinearMomentum, Quantity::CanonicalMomentum]),
     );
     let in_order = positions.len() == momenta.len()
-        && states.iter().take(2 * positions.len()).eq(positions.iter().chain(&momenta));
+        && reduction.symbols().iter().take(2 * positions.len()).eq(positions.iter().chain(&momenta));
     (split.nystrom && in_order).then_some(())?;
     let chart = &reduction.chart;
     let coordinate = |symbol: Expr| chart.coordinates().into_iter().find(|z| chart.symbol(*z) == symbol);
@@ -59,17 +58,14 @@ fn rates_of(
     let mut all = System::default();
     for flow in &piece.flows {
         let Flow::Shift(system) = flow else { return None };
-        all.shared.extend(system.shared.iter().cloned());
-        all.kernels.extend(system.kernels.iter().cloned());
-        all.rates.extend(system.rates.iter().cloned());
+        all.join(system);
     }
     if all.rates.iter().any(|(_, symbol, _)| !components.contains(symbol)) {
         return None;
     }
     let rate = |symbol: Expr| {
-        let sum: Polynomial =
-            all.rates.iter().filter(|(_, moved, _)| *moved == symbol).map(|(_, _, rate)| rate).sum();
-        Some((coordinate(symbol)?, symbol, sum))
+        let z = coordinate(symbol)?;
+        Some((z, symbol, all.rate(z)))
     };
     let rates = components.iter().map(|symbol| rate(*symbol)).collect::<Option<Vec<_>>>()?;
     Some(System { rates, ..all })

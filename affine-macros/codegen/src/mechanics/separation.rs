@@ -1,6 +1,8 @@
 //! A dilatation that moves by itself, `q'' = -U_dil'(q)/m`, in closed form.
 
 use crate::algebra::passage::DilatationalMotion;
+use crate::algebra::polynomial::add_to;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -90,8 +92,8 @@ impl Slope {
             let binding = match *key {
                 (1, 0) => binding(arena, coefficient, None),
                 (0, 1..) => {
-                    let opposite = powers.iter().find(|(other, _)| *other == (0, -key.1));
-                    opposite.map_or_else(Polynomial::zero, |(_, c)| binding(arena, coefficient, Some(c)))
+                    let opposite = listed(&powers)((0, -key.1));
+                    opposite.map_or_else(Polynomial::zero, |c| binding(arena, coefficient, Some(&c)))
                 }
                 _ => continue,
             };
@@ -136,11 +138,7 @@ fn powers(arena: &mut Arena, slope: &Polynomial) -> Option<Powers> {
         let power = i64::try_from(count(up)).ok()? - i64::try_from(count(down)).ok()?;
         let key = (count(q), power);
         let rest = monomial.iter().copied().filter(|atom| ![q, up, down].contains(atom)).collect();
-        let rest = Polynomial::term(rest, weight.clone());
-        match powers.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
-            None => powers.push((key, rest)),
-        }
+        add_to(&mut powers, key, &Polynomial::term(rest, weight.clone()));
     }
     powers.retain(|(_, coefficient)| !coefficient.is_zero());
     powers.sort_by_key(|(key, _)| *key);

@@ -1,11 +1,13 @@
 //! Quantities that forces share: velocities, `phi^-1`, forces themselves.
 
-use crate::algebra::ring::{Square, adjugate, determinant, pairs, product, table, times, transpose};
-use crate::algebra::{Arena, Expr, Matrix, Polynomial};
+use crate::algebra::ring::{Square, adjugate, determinant, pairs, table, times, transpose};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::symbol::{Quantity, Symbol};
 
 use super::charts::{Chart, Coordinate, Linear, Momentum};
+use super::metric::{Definitions, share};
 use super::term::Frame;
+use super::transport;
 
 /// How the velocity of the centre of mass is known.
 #[derive(Clone, Debug)]
@@ -26,21 +28,17 @@ pub enum CentreVelocity {
 /// Quantities that forces share.
 pub(super) struct Shared<'a> {
     pub(super) arena: &'a mut Arena,
-    pub(super) list: Vec<(Expr, Polynomial)>,
+    pub(super) list: Definitions,
 }
 
 impl Shared<'_> {
     /// The value under a name; what needs no name has none.
     pub(super) fn named(&mut self, symbol: impl Into<Symbol>, value: &Polynomial) -> Polynomial {
-        let is_name =
-            value.terms().len() == 1 && value.terms().all(|(monomial, c)| monomial.len() == 1 && c.is_one());
-        if value.is_zero() || is_name {
+        if value.is_zero() || value.as_atom().is_some() {
             return value.clone();
         }
         let symbol = self.arena.symbol(symbol);
-        if !self.list.iter().any(|(known, _)| *known == symbol) {
-            self.list.push((symbol, value.clone()));
-        }
+        share(&mut self.list, [(symbol, value.clone())]);
         Polynomial::atom(symbol)
     }
 
@@ -69,25 +67,16 @@ impl Shared<'_> {
         // A symbol is not the number zero.
         let reciprocal = Polynomial::atom(self.arena.reciprocal(det));
         let inverse_det = self.arena.symbol(Quantity::InverseDeterminant);
-        if !self.list.iter().any(|(known, _)| *known == inverse_det) {
-            self.list.push((inverse_det, reciprocal));
-        }
+        share(&mut self.list, [(inverse_det, reciprocal)]);
         let inverse_det = Polynomial::atom(inverse_det);
         let inverse = table(phi.len(), |a, i| cofactors[a][i].mul(&inverse_det));
         self.matrix(Quantity::InversePlacement, &inverse)
     }
-}
 
-impl Shared<'_> {
     /// `phi_dot` through the affine velocity of the chart.
     pub(super) fn phi_dot(&mut self, chart: &Chart) -> Square<Polynomial> {
-        let phi = chart.placement();
-        let own = Matrix::symbols(self.arena, chart.momentum.velocity(), chart.dim).atoms();
-        match frame_of(chart) {
-            Frame::Body => product(&phi, &own),
-            Frame::Space => product(&own, &phi),
-            Frame::Flat => own,
-        }
+        let own = chart.velocity(self.arena).atoms();
+        transport::velocity(chart.frame(), &own, &chart.placement())
     }
 
     /// `x_dot`; nothing where the chart has no `p`.
@@ -96,13 +85,13 @@ impl Shared<'_> {
         let (own, inverse_mass) = match centre {
             CentreVelocity::Fixed => return Vec::new(),
             CentreVelocity::Defined { x_dot, .. } => {
-                return x_dot.iter().map(|v| Polynomial::atom(*v)).collect();
+                return Polynomial::vector(x_dot);
             }
             CentreVelocity::PerMass(own, inverse_mass) => (own, inverse_mass),
         };
         let phi = chart.placement();
         let per_mass: Vec<Polynomial> =
-            chart.p.iter().map(|p| Polynomial::atom(*p).mul(inverse_mass)).collect();
+            Polynomial::vector(&chart.p).iter().map(|p| p.mul(inverse_mass)).collect();
         match (linear, own) {
             (Linear::Body, _) => times(&phi, &per_mass),
             (Linear::Space, Frame::Body) => {
@@ -113,16 +102,15 @@ impl Shared<'_> {
             (Linear::Space, _) => per_mass,
         }
     }
+}
 
-    /// The force on the affine momentum of the chart that a force on `Pi` is.
-    pub(super) fn on_own(&mut self, chart: &Chart, push: &Square<Polynomial>) -> Square<Polynomial> {
-        let phi = chart.placement();
-        match frame_of(chart) {
-            Frame::Body => product(push, &phi),
-            Frame::Space => product(&phi, push),
-            Frame::Flat => push.clone(),
-        }
-    }
+/// `phi^-1`, with what defines it.
+pub(super) fn inverse_placement(
+    arena: &mut Arena,
+    phi: &Square<Polynomial>,
+) -> (Square<Polynomial>, Definitions) {
+    let mut shared = Shared { arena, list: Definitions::new() };
+    (shared.inverse(phi), shared.list)
 }
 
 /// The forces on the momenta of a chart by those on its affine spin and on its `p`, if it has one: `I(O) = Sigma + x p^T`.
@@ -141,13 +129,4 @@ pub(super) fn on_momenta(
     let mut forces: Vec<_> = pairs(chart.dim).map(on_spin).collect();
     forces.extend(centre.into_iter().enumerate().map(|(i, force)| (Coordinate::P(i), force)));
     forces
-}
-
-/// The frame whose affine momentum the chart has.
-pub(super) fn frame_of(chart: &Chart) -> Frame {
-    match chart.momentum {
-        Momentum::Body => Frame::Body,
-        Momentum::Space | Momentum::Total => Frame::Space,
-        Momentum::Canonical => Frame::Flat,
-    }
 }

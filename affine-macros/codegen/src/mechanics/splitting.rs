@@ -37,8 +37,10 @@ use super::brackets::poisson;
 use super::charts::{Coordinate, Momentum};
 use super::custom::Custom;
 use super::equations::{Form, Load, System};
+use super::forces::Forces;
 use super::hamiltonian::{Hamiltonian, spatial_or_own};
 use super::kinetics::Kinetics;
+use super::loads::of_potential;
 use super::potential::Potential;
 use super::reduction::Reduction;
 use super::separation::Separation;
@@ -76,12 +78,12 @@ pub fn splitting(
     (h, body): (&Hamiltonian, &Body),
     reduction: &Reduction,
 ) -> Option<Splitting> {
-    let (potential, accounted) = (body.potential, body.forces.accounted);
+    let (potential, forces) = (body.potential, body.forces);
     let own = own_dilatation(arena, h, potential, reduction);
     let summands = match (&reduction.dilatation, &own) {
         (Some(_), _) => separated(arena, reduction),
-        (None, Some(own)) => summands(arena, &own.h, (Some(&own.rest), accounted), reduction)?,
-        (None, None) => summands(arena, h, (potential, accounted), reduction)?,
+        (None, Some(own)) => summands(arena, &own.h, (Some(&own.rest), forces), reduction)?,
+        (None, None) => summands(arena, h, (potential, forces), reduction)?,
     };
     let kicks = kicks(arena, body, reduction)?;
     let summands: Vec<Summand> =
@@ -157,7 +159,7 @@ fn own_dilatation(
     if reduction.dilatation.is_some() || h.constraint.is_some() || !moves_itself || iso.casimir2.is_zero() {
         return None;
     }
-    let states: Vec<Expr> = reduction.states.iter().flat_map(|(_, symbols)| symbols.clone()).collect();
+    let states = reduction.symbols();
     if !(0..chart.dim).all(|a| states.contains(&chart.m.0[a][a])) {
         return None;
     }
@@ -173,8 +175,7 @@ fn own_dilatation(
     // tr M^2 - (tr M)^2/n, of the traceless momentum.
     h.isotropic.as_mut()?.casimir1_squared = iso.casimir2.scaled(&nth);
     let gauge = reduction.gauge();
-    let value = |atom: Expr| gauge.contains(&atom).then(Polynomial::zero);
-    let spin = spin.iter().map(|entry| entry.substitute(&value)).collect();
+    let spin = spin.iter().map(|entry| entry.substitute(&gauge)).collect();
     Some(OwnDilatation { separation: Separation { slope, inverse_mass }, spin, energy, h, rest })
 }
 
@@ -183,7 +184,7 @@ fn own_dilatation(
 fn summands(
     arena: &mut Arena,
     h: &Hamiltonian,
-    (potential, accounted): (Option<&Potential>, bool),
+    (potential, forces): (Option<&Potential>, &Forces),
     reduction: &Reduction,
 ) -> Option<Vec<Summand>> {
     let chart = &reduction.chart;
@@ -214,17 +215,8 @@ fn summands(
         });
     }
     if let Some(u) = potential {
-        let load = u.load(arena, chart);
-        let force =
-            |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-        let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-        let system = System {
-            rates: rates.collect(),
-            shared: load.shared.clone(),
-            kernels: load.kernels.clone(),
-            work: load.work.filter(|_| accounted),
-        };
-        let system = over_the_state(arena, reduction, system)?;
+        let load = of_potential(arena, chart, u, forces);
+        let system = over_the_state(arena, reduction, load.alone(chart))?;
         summands.push(Summand { name: "potential".into(), energy: None, system });
     }
     Some(summands)
@@ -264,18 +256,8 @@ fn acting(arena: &mut Arena, body: &Body, reduction: &Reduction, mut load: Load)
         let (kinetics, _) = body.motion.kinetics_without(arena, chart, skew).into_iter().next()?;
         load.shared.splice(0..0, kinetics.shared);
     }
-    let load = match chart.confined {
-        Some(group) => load.confined(arena, chart, group),
-        None => load,
-    };
-    let force = |z: &Coordinate| load.forces.iter().find(|(at, _)| at == z).map(|(_, force)| force.clone());
-    let rates = chart.independent().into_iter().filter_map(|z| Some((z, chart.symbol(z), force(&z)?)));
-    let rates = rates.collect();
-    over_the_state(
-        arena,
-        reduction,
-        System { rates, shared: load.shared, kernels: load.kernels, work: load.work },
-    )
+    let system = load.confined(arena, chart).alone(chart);
+    over_the_state(arena, reduction, system)
 }
 
 /// `Psi' = Psi O` and `O' = ` the forces, where the dilatation is out of the state.

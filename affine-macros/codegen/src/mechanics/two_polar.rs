@@ -17,6 +17,7 @@ mod ratios;
 mod stable;
 
 use crate::algebra::fault::never_missing;
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 use super::hamiltonian::Hamiltonian;
@@ -154,8 +155,7 @@ impl Lattice {
         let rate = |z: Coordinate| slopes.iter().map(|(y, slope)| self.bracket(z, *y).mul(slope)).sum();
         let rates = coordinates.iter().map(|z| (*z, self.symbol(*z), rate(*z))).collect();
         let of = |z: Coordinate| {
-            let slope = slopes.iter().find(|(y, _)| *y == z).map(|(_, slope)| slope.clone());
-            never_missing(slope, "there is a slope along every coordinate", Polynomial::zero())
+            never_missing(listed(&slopes)(z), "there is a slope along every coordinate", Polynomial::zero())
         };
         let angular = |sign: Rational| {
             let one = |(a, b)| {

@@ -116,12 +116,31 @@ impl Value {
         };
         flat.iter().chain(rows.iter().flatten())
     }
+
+    /// What it is, in words.
+    pub fn shape(&self) -> &'static str {
+        match self {
+            Self::Scalar(_) => "a scalar",
+            Self::Diagonal(_) => "a diagonal matrix",
+            Self::Matrix(_) => "a matrix",
+        }
+    }
 }
 
 impl Spec {
     /// What is asked for besides the equations.
     pub fn asked(&self) -> Asked {
         self.emit.iter().map(|capability| capability.value).collect()
+    }
+
+    /// Where a capability is asked for, if it is.
+    pub fn emitted(&self, capability: Capability) -> Option<Region> {
+        self.emit.iter().find(|asked| asked.value == capability).map(|asked| asked.span)
+    }
+
+    /// Where something is required, if it is.
+    pub fn required(&self, requirement: Requirement) -> Option<Region> {
+        self.require.iter().find(|required| required.value == requirement).map(|required| required.span)
     }
 
     /// The terms of all quadratic forms: the kinetic energy, then the dissipation.

@@ -44,8 +44,7 @@ fn written(
     stable: &Stable,
     program: &mut impl FnMut(&mut Arena, &Batch) -> Program,
 ) -> PieceProgram {
-    let name = |arena: &Arena, s: Expr| arena.symbol_of(s);
-    let shifted: Vec<Symbol> = piece.shifts.iter().map(|(z, _)| name(arena, *z)).collect();
+    let shifted: Vec<Symbol> = piece.shifts.iter().map(|(z, _)| arena.symbol_of(*z)).collect();
     let rates = shifted.iter().zip(&piece.shifts);
     let mut results: Vec<_> =
         rates.map(|(z, (_, rate))| (z.clone().seen(Aspect::Rate), stable.rewritten(rate))).collect();
@@ -54,7 +53,7 @@ fn written(
     }
     let shared = stable.shared.iter().chain(&piece.shared).cloned().collect();
     let batch = Batch { shared, results, ..Batch::default() }.pruned(arena);
-    let planes = |(z, y): &(Expr, Expr)| (name(arena, *z), name(arena, *y));
+    let planes = |(z, y): &(Expr, Expr)| (arena.symbol_of(*z), arena.symbol_of(*y));
     let turned = piece.turns.iter().map(|turn| turn.planes.iter().map(planes).collect()).collect();
     PieceProgram { name: piece.name.clone(), shifted, turned, program: program(arena, &batch) }
 }

@@ -20,16 +20,15 @@ pub struct RatioProgram {
 
 impl RatioProgram {
     pub(super) fn of(arena: &mut Arena, form: &Ratios) -> Self {
-        let name = |arena: &Arena, s: &Expr| arena.symbol_of(*s);
         let state: Vec<Expr> = form.rates.iter().map(|(z, _)| *z).collect();
         let couplings: Vec<Expr> =
             form.couplings.iter().flatten().copied().filter(|z| !state.contains(z)).collect();
-        let results = form.rates.iter().map(|(z, rate)| (name(arena, z).seen(Aspect::Rate), rate.clone()));
+        let results =
+            form.rates.iter().map(|(z, rate)| (arena.symbol_of(*z).seen(Aspect::Rate), rate.clone()));
         let batch = Batch { shared: form.shared.clone(), results: results.collect(), ..Batch::default() };
         let varying: Vec<Expr> = state.iter().chain(&couplings).copied().collect();
         // Nothing depends on the coefficients of the model.
         let program = program(arena, &batch, &mut Constants::new(Quantity::Coefficient), &varying);
-        let names = |symbols: &[Expr]| symbols.iter().map(|s| name(arena, s)).collect();
-        Self { state: names(&state), couplings: names(&couplings), program }
+        Self { state: arena.symbols_of(&state), couplings: arena.symbols_of(&couplings), program }
     }
 }

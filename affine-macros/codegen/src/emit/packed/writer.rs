@@ -6,8 +6,9 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::names;
-use crate::emit::body::{DEEPEST, Strength, inner};
+use crate::emit::body::DEEPEST;
 use crate::emit::context::Context;
+use crate::emit::expression::{Expression, Strength, at_least, difference, negative, product, quotient, sum};
 use crate::emit::number::{Number, name_of, number};
 use crate::emit::pattern::ident;
 use crate::ir::naming::Namer;
@@ -154,7 +155,7 @@ impl Writer<'_> {
     }
 
     /// A value of the scalar program, from its lane if it has one.
-    fn value(&self, value: Value) -> (TokenStream, Strength) {
+    fn value(&self, value: Value) -> Expression {
         if let Op::Input(symbol) = &self.packed.program.steps[value]
             && self.packed.lane(value).is_none()
         {
@@ -170,7 +171,7 @@ impl Writer<'_> {
         }
     }
 
-    fn expression(&self, step: Step) -> (TokenStream, Strength) {
+    fn expression(&self, step: Step) -> Expression {
         if let Some(name) = self.bound.get(&step) {
             return (quote!(#name), Strength::Atom);
         }
@@ -180,7 +181,7 @@ impl Writer<'_> {
         }
     }
 
-    fn scalar(&self, op: &Op) -> (TokenStream, Strength) {
+    fn scalar(&self, op: &Op) -> Expression {
         let rt = &self.context.names.rt;
         let operand = |value: &Value| self.value(*value);
         match op {
@@ -194,22 +195,20 @@ impl Writer<'_> {
                 (quote!(#rt::Scalar::#name(#a)), Strength::Atom)
             }
             Op::Neg(a) => negative(operand(a)),
-            Op::Add(a, b) => infix(operand(a), quote!(+), operand(b), (Strength::Sum, Strength::Sum)),
-            Op::Sub(a, b) => {
-                infix(operand(a), inner(quote!(-)), operand(b), (Strength::Sum, Strength::Product))
-            }
+            Op::Add(a, b) => sum(operand(a), operand(b)),
+            Op::Sub(a, b) => difference(operand(a), operand(b)),
             Op::Mul(a, b) => product(operand(a), operand(b)),
-            Op::Div(a, b) => infix(operand(a), quote!(/), operand(b), (Strength::Product, Strength::Sign)),
-            Op::MulAdd(a, b, sum) => match &self.packed.program.steps[*a] {
+            Op::Div(a, b) => quotient(operand(a), operand(b)),
+            Op::MulAdd(a, b, rest) => match &self.packed.program.steps[*a] {
                 Op::Neg(inner) if !self.bound.contains_key(&Step::Scalar(*a)) => {
-                    added_to_one(operand(sum), "minus_one", operand(inner), operand(b))
+                    added_to_one(operand(rest), "minus_one", operand(inner), operand(b))
                 }
-                _ => added_to_one(operand(sum), "plus_one", operand(a), operand(b)),
+                _ => added_to_one(operand(rest), "plus_one", operand(a), operand(b)),
             },
         }
     }
 
-    fn vector(&self, index: Index) -> (TokenStream, Strength) {
+    fn vector(&self, index: Index) -> Expression {
         let operand = |index: Index| self.expression(Step::Vector(index));
         match self.packed.vectors[index].made {
             // Bound where it is read.
@@ -228,16 +227,14 @@ impl Writer<'_> {
                 (quote!(four([#(#lanes),*])), Strength::Atom)
             }
             Four::Neg(a) => negative(operand(a)),
-            Four::Add(a, b) => infix(operand(a), quote!(+), operand(b), (Strength::Sum, Strength::Sum)),
-            Four::Sub(a, b) => {
-                infix(operand(a), inner(quote!(-)), operand(b), (Strength::Sum, Strength::Product))
-            }
+            Four::Add(a, b) => sum(operand(a), operand(b)),
+            Four::Sub(a, b) => difference(operand(a), operand(b)),
             Four::Mul(a, b) => product(operand(a), operand(b)),
-            Four::MulAdd(a, b, sum) => match self.packed.vectors[a].made {
+            Four::MulAdd(a, b, rest) => match self.packed.vectors[a].made {
                 Four::Neg(inner) if !self.bound.contains_key(&Step::Vector(a)) => {
-                    added(operand(sum), "minus", operand(inner), operand(b))
+                    added(operand(rest), "minus", operand(inner), operand(b))
                 }
-                _ => added(operand(sum), "plus", operand(a), operand(b)),
+                _ => added(operand(rest), "plus", operand(a), operand(b)),
             },
         }
     }
@@ -247,48 +244,14 @@ impl Writer<'_> {
     }
 }
 
-fn at_least((tokens, strength): (TokenStream, Strength), least: Strength) -> TokenStream {
-    if strength < least { quote!((#tokens)) } else { tokens }
-}
-
-fn negative(operand: (TokenStream, Strength)) -> (TokenStream, Strength) {
-    let operand = at_least(operand, Strength::Sign);
-    let minus = inner(quote!(-));
-    (quote!(#minus #operand), Strength::Sign)
-}
-
-fn infix(
-    a: (TokenStream, Strength),
-    sign: TokenStream,
-    b: (TokenStream, Strength),
-    (own, right): (Strength, Strength),
-) -> (TokenStream, Strength) {
-    let (a, b) = (at_least(a, own), at_least(b, right));
-    (quote!(#a #sign #b), own)
-}
-
-fn product(a: (TokenStream, Strength), b: (TokenStream, Strength)) -> (TokenStream, Strength) {
-    infix(a, inner(quote!(*)), b, (Strength::Product, Strength::Product))
-}
-
 /// A sum and one product more, of vectors.
-fn added(
-    sum: (TokenStream, Strength),
-    method: &str,
-    (a, _): (TokenStream, Strength),
-    (b, _): (TokenStream, Strength),
-) -> (TokenStream, Strength) {
+fn added(sum: Expression, method: &str, (a, _): Expression, (b, _): Expression) -> Expression {
     let (sum, method) = (at_least(sum, Strength::Atom), format_ident!("{method}"));
     (quote!(#sum.#method(#a, #b)), Strength::Atom)
 }
 
 /// The same of numbers, rounded as in a vector.
-fn added_to_one(
-    (sum, _): (TokenStream, Strength),
-    function: &str,
-    (a, _): (TokenStream, Strength),
-    (b, _): (TokenStream, Strength),
-) -> (TokenStream, Strength) {
+fn added_to_one((sum, _): Expression, function: &str, (a, _): Expression, (b, _): Expression) -> Expression {
     let function = format_ident!("{function}");
     (quote!(vectors.#function(#sum, #a, #b)), Strength::Atom)
 }

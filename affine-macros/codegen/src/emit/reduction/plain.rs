@@ -8,8 +8,10 @@ use quote::quote;
 use crate::algebra::passage::Passage;
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
-use crate::emit::parametric::{Evaluation, equations_head};
+use crate::emit::parametric::asks_again;
 use crate::emit::trajectory;
+
+use super::methods;
 
 /// Are the reduced equations those of the plain array, and the constants at most their coefficients?
 pub(super) fn is_plain(context: &Context, passage: &Passage) -> bool {
@@ -18,67 +20,34 @@ pub(super) fn is_plain(context: &Context, passage: &Passage) -> bool {
 
 /// `reduce`: the plain array.
 pub(super) fn reduce(context: &Context) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
+    let rt = &context.names.rt;
     let program = &context.model.dynamics.trajectory;
     let Body { lets, results } = context.generic(program, Coefficients::Given);
     let constants = trajectory::at_the_start(context, &results);
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "reduce", slice::from_ref(program));
     let flat = match context.has_prepared_bases() {
         true => quote!(#rt::Parametric::flatten_with(self, coefficients, point)),
         false => quote!(#rt::Model::flatten(self, point)),
     };
-    quote! {
-        fn #name<#t: #rt::Real>(
-            &self,
-            #parameter
-            _t0: #t,
-            point: &Self::Point<#t>,
-        ) -> (Self::Reduced<#t>, Self::Constants<#t>) {
-            #lets
-            (#flat, #constants)
-        }
-    }
+    let body = quote!(#lets (#flat, #constants));
+    methods::reduce(context, slice::from_ref(program), &quote!(_t0), &body)
 }
 
 /// `reduced_equations`: Hamilton's equations.
 pub(super) fn equations(context: &Context) -> TokenStream {
-    let (rt, t, inline) = (&context.names.rt, &context.names.scalar, context.inline());
-    let (name, parameter) = equations_head(context);
-    let equations = match parameter {
-        Some(_) => quote!(#rt::Parametric::hamilton_equations_with(self, coefficients, t, reduced)),
-        None => quote!(#rt::Model::hamilton_equations(self, t, reduced)),
+    let rt = &context.names.rt;
+    let equations = match asks_again(context) {
+        true => quote!(#rt::Parametric::hamilton_equations_with(self, coefficients, t, reduced)),
+        false => quote!(#rt::Model::hamilton_equations(self, t, reduced)),
     };
-    quote! {
-        #inline
-        fn #name<#t: #rt::Scalar>(
-            &self,
-            #parameter
-            t: #t,
-            _constants: &Self::Constants<#t>,
-            reduced: &Self::Reduced<#t>,
-        ) -> Self::Reduced<#t> {
-            #equations
-        }
-    }
+    methods::equations(context, [quote!(t), quote!(_constants), quote!(reduced)], &equations)
 }
 
 /// `expand`: the point of the plain array.
 pub(super) fn expand(context: &Context) -> TokenStream {
-    let (rt, t) = (&context.names.rt, &context.names.scalar);
-    let Evaluation { name, parameter } = Evaluation::of_points(context, "expand", &[]);
+    let rt = &context.names.rt;
     let point = match context.has_prepared_bases() {
         true => quote!(#rt::Parametric::unflatten_with(self, coefficients, reduced)),
         false => quote!(#rt::Model::unflatten(self, reduced)),
     };
-    quote! {
-        fn #name<#t: #rt::Real>(
-            &self,
-            #parameter
-            _t: #t,
-            _constants: &Self::Constants<#t>,
-            reduced: &Self::Reduced<#t>,
-        ) -> Self::Point<#t> {
-            #point
-        }
-    }
+    methods::expand(context, &[], [quote!(_t), quote!(_constants)], &point)
 }

@@ -3,11 +3,12 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use crate::derive::{Components, PieceProgram, TwoPolar};
+use crate::derive::{PieceProgram, TwoPolar};
 use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
-use crate::emit::number::number;
+use crate::emit::names::variant;
 use crate::emit::pattern::{bound, pattern};
+use crate::emit::splitting::{added_at, as_factors, chosen, place};
 use crate::symbol::{Quantity, Symbol};
 
 /// The implementation of the capability over the state with frames, whose components are named.
@@ -16,14 +17,9 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbo
     let (rt, t) = (&context.names.rt, &context.names.scalar);
     let names = pieces.list.iter().map(|piece| &piece.name);
     let nystrom = pieces.nystrom;
-    let count = pieces.list.len();
-    let arms = pieces.list.iter().enumerate().map(|(k, piece)| {
-        let body = flow(context, form, piece, framed);
-        let piece = number(k);
-        // There is no other piece than those that are counted.
-        let place = if k + 1 == count { quote!(_) } else { quote!(#piece) };
-        quote!(#place => { #body })
-    });
+    let flows: Vec<TokenStream> =
+        pieces.list.iter().map(|piece| flow(context, form, piece, framed)).collect();
+    let chosen = chosen(&flows);
     let is_read = |symbol: &Symbol| pieces.list.iter().any(|piece| piece.program.inputs().contains(symbol));
     let couplings = if form.couplings.iter().any(is_read) { quote!(couplings) } else { quote!(_couplings) };
     let turning = turning(context);
@@ -41,7 +37,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbo
             state: &mut Self::Framed<#t>,
             carry: &mut Self::Framed<#t>,
         ) {
-            match piece { #(#arms)* }
+            #chosen
         }
     };
     context.implementation("LatticePieces", &items)
@@ -50,11 +46,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar, framed: &[Symbo
 /// `1/mu` and the side of the rotation that is no piece.
 fn turning(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
-    let side = match context.model.spin() {
-        Components::Comoving => quote!(Body),
-        Components::Spatial => quote!(Space),
-        Components::TwoPoint => return TokenStream::new(),
-    };
+    let side = variant(context.model.frame);
     // On U(n) there is none, and no coefficient of it is computed.
     let program = match (&context.model.point.isotropic, &context.spec.group) {
         (Some(program), None) => program,
@@ -77,17 +69,10 @@ fn flow(context: &Context, form: &TwoPolar, piece: &PieceProgram, framed: &[Symb
     let (couplings, _) = bound(&form.couplings, &used, "couplings");
     let state = pattern(framed, &used);
     let Body { lets, results } = context.generic(&piece.program, Coefficients::Own);
-    // Several results are names or numbers; a single one may be a sum.
-    let (only, results) = match results.as_slice() {
-        [one] => (quote!(let rate = #one;), vec![quote!(rate)]),
-        _ => (TokenStream::new(), results),
-    };
-    let place =
-        |name: &Symbol| framed.iter().position(|known| known == name).map_or_else(|| number(0), number);
-    let rises = piece.shifted.iter().zip(&results).map(|(name, rate)| {
-        let at = place(name);
-        quote!(#rt::accumulate(&mut state[#at], &mut carry[#at], h * #rate);)
-    });
+    let (only, results) = as_factors(results);
+    let place = |name: &Symbol| place(framed, name);
+    let rises = piece.shifted.iter().zip(&results);
+    let rises = rises.map(|(name, rate)| added_at(context, &place(name), quote!(h * #rate)));
     let angular = results.iter().skip(piece.shifted.len());
     let turns = piece.turned.iter().zip(angular).enumerate().map(|(k, (planes, angular))| {
         let rotation = format_ident!("rotation_{}", k + 1);

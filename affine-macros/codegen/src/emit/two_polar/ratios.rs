@@ -8,7 +8,7 @@ use crate::emit::body::Body;
 use crate::emit::context::{Coefficients, Context};
 use crate::emit::description;
 use crate::emit::number::number;
-use crate::emit::pattern::pattern;
+use crate::emit::pattern::{held, pattern};
 
 /// The implementation of the capability.
 pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream {
@@ -17,13 +17,7 @@ pub(super) fn implementation(context: &Context, form: &TwoPolar) -> TokenStream 
     let size = number(ratios.state.len());
     let used = ratios.program.inputs();
     let bound = pattern(&ratios.state, &used);
-    let (couplings, read) = match ratios.couplings.is_empty() {
-        true => (quote!(_couplings), TokenStream::new()),
-        false => {
-            let bound = pattern(&ratios.couplings, &used);
-            (quote!(couplings), quote!(let #bound = *couplings;))
-        }
-    };
+    let (read, couplings) = held(&ratios.couplings, &used, "couplings");
     let Body { lets, results } = context.generic(&ratios.program, Coefficients::Own);
     let operations = description::operations(context, ratios.program.operations());
     let items = quote! {

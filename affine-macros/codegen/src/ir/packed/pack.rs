@@ -31,30 +31,18 @@ pub(super) fn pack(program: &Program, names: &[Symbol], state: Vec<[Option<usize
         lanes: lanes_of(vector, &|component| inputs[component]),
         made: Four::State(k),
     });
-    let mut packer =
-        Packer { program, fixed: fixed(program, names), vectors: of_state.collect(), attempts: 0 };
+    let moving = program.depending(|input| input.quantity() == Some(Quantity::Time) || names.contains(input));
+    let mut packer = Packer { program, moving, vectors: of_state.collect(), attempts: 0 };
     let rates =
         state.iter().map(|vector| packer.pack(lanes_of(vector, &|k| Some(program.outputs[k].1)))).collect();
     let cost = packer.cost() + OF_A_SUM * state.len();
     Draft { state, vectors: packer.vectors, rates, cost }
 }
 
-/// Values that are the same at every state.
-fn fixed(program: &Program, state: &[Symbol]) -> Vec<bool> {
-    let mut fixed: Vec<bool> = Vec::with_capacity(program.steps.len());
-    for op in &program.steps {
-        let is_fixed = match op {
-            Op::Input(symbol) => symbol.quantity() != Some(Quantity::Time) && !state.contains(symbol),
-            op => op.operands().into_iter().all(|v| fixed[v]),
-        };
-        fixed.push(is_fixed);
-    }
-    fixed
-}
-
 struct Packer<'p> {
     program: &'p Program,
-    fixed: Vec<bool>,
+    /// Values that depend on the state or on the time.
+    moving: Vec<bool>,
     vectors: Vec<Vector>,
     attempts: usize,
 }
@@ -76,7 +64,7 @@ impl Packer<'_> {
         if let Some(value) = single(lanes) {
             return self.push(lanes, Four::All(value));
         }
-        if lanes.iter().filter_map(|lane| lane.value()).all(|v| self.fixed[v]) {
+        if lanes.iter().filter_map(|lane| lane.value()).all(|v| !self.moving[v]) {
             return self.push(lanes, Four::Gathered(lanes));
         }
         self.cheaper(lanes)
@@ -210,7 +198,7 @@ impl Packer<'_> {
     fn difficulty(&self, operands: Operands<2>) -> usize {
         let of = |lanes: Lanes| {
             let lanes = lanes.map(|lane| self.without_sign(lane));
-            let is_fixed = lanes.iter().filter_map(|lane| lane.value()).all(|v| self.fixed[v]);
+            let is_fixed = lanes.iter().filter_map(|lane| lane.value()).all(|v| !self.moving[v]);
             if is_fixed || self.known(lanes).is_some() {
                 0
             } else if single(lanes).is_some() {

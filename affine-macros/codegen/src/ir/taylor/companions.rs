@@ -1,8 +1,8 @@
 //! Functions whose differential equation names another function of the same argument.
 
 use crate::algebra::{Function, Rational};
-
-use super::super::{Op, Program, Value};
+use crate::ir::steps::Steps;
+use crate::ir::{Op, Program, Value};
 
 /// The function that the derivative of `function` is made of, up to sign.
 pub(super) fn companion(function: Function) -> Option<Function> {
@@ -17,25 +17,25 @@ pub(super) fn companion(function: Function) -> Option<Function> {
 
 /// The program with the companion of each function behind it: `cos u` for `sin u`, `1 + y^2` for `y = tan u`.
 pub(super) fn completed(program: &Program) -> Program {
-    let mut result = Program::default();
+    let mut steps = Steps::default();
     let mut place: Vec<Value> = Vec::with_capacity(program.steps.len());
     for step in &program.steps {
         let step = step.renumbered(&place);
-        let value = push(&mut result, step.clone());
+        let value = steps.step(step.clone());
         place.push(value);
         let Op::Call(function, argument) = step else { continue };
         if let Some(other) = companion(function) {
-            push(&mut result, Op::Call(other, argument));
+            steps.step(Op::Call(other, argument));
         } else if let Function::Tan | Function::Tanh = function {
-            let one = push(&mut result, Op::Constant(Rational::ONE));
-            let square = push(&mut result, Op::Mul(value, value));
+            let one = steps.step(Op::Constant(Rational::ONE));
+            let square = steps.step(Op::Mul(value, value));
             let slope = if function == Function::Tan { Op::Add(one, square) } else { Op::Sub(one, square) };
-            push(&mut result, slope);
+            steps.step(slope);
         }
     }
-    result.names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
-    result.outputs = program.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
-    result
+    let names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
+    let outputs = program.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
+    Program { steps: steps.list, names, outputs, ..Program::default() }
 }
 
 /// The value that the rule of `function` at `value` reads besides its argument.
@@ -51,13 +51,4 @@ pub(super) fn companion_of(program: &Program, value: Value) -> Option<Value> {
         Op::Sub(_, b) => function == Function::Tanh && b == square,
         _ => false,
     })
-}
-
-/// Appends a step that is not there yet.
-fn push(program: &mut Program, op: Op) -> Value {
-    if let Some(known) = program.steps.iter().position(|step| *step == op) {
-        return known;
-    }
-    program.steps.push(op);
-    program.steps.len() - 1
 }

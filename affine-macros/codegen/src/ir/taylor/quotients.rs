@@ -31,10 +31,7 @@ pub(super) fn divided(program: &Program) -> Program {
         };
         place.push(value);
     }
-    result.calls = program.calls.iter().map(|call| call.renumbered(&place)).collect();
-    result.names = program.names.iter().map(|(v, n)| (place[*v], n.clone())).collect();
-    result.outputs = program.outputs.iter().map(|(n, v)| (n.clone(), place[*v])).collect();
-    result.without_dead_steps()
+    result.ending_as(program, &place)
 }
 
 /// Of two factors the one that is no such number, and numerator and denominator of the other.

@@ -217,13 +217,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn new(program: &'a Program, states: &[Symbol]) -> Self {
         let count = program.steps.len();
-        let mut moving = vec![false; count];
-        for (value, step) in program.steps.iter().enumerate() {
-            moving[value] = match step {
-                Op::Input(name) => states.contains(name) || is_time(name),
-                step => step.operands().into_iter().any(|v| moving[v]),
-            };
-        }
+        let moving = program.depending(|input| states.contains(input) || is_time(input));
         let mut reader = Self { program, moving, needed: needed(program), absorbed: vec![false; count] };
         let (mut reads, mut summand_only) = (vec![0; count], vec![true; count]);
         for (_, output) in &program.outputs {

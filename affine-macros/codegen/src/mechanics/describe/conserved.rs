@@ -22,11 +22,11 @@ fn written(arena: &mut Arena, Entry { of, row, column, .. }: &Entry) -> Polynomi
         Candidate::OrbitalAngularMomentum => {
             let mut product =
                 |i, j| atom(Quantity::Position.at([i])).mul(&atom(Quantity::LinearMomentum.at([j])));
-            return difference(product(row, column), &product(column, row));
+            return product(row, column).sub(&product(column, row));
         }
         Candidate::TotalAngularMomentum => {
             let mut entry = |i, j| atom(Quantity::TotalAffineMomentum.at([i, j]));
-            return difference(entry(row, column), &entry(column, row));
+            return entry(row, column).sub(&entry(column, row));
         }
         Candidate::LinearMomentum => Quantity::LinearMomentum.at([row]),
         Candidate::ComovingLinearMomentum => Quantity::ComovingLinearMomentum.at([row]),
@@ -38,9 +38,4 @@ fn written(arena: &mut Arena, Entry { of, row, column, .. }: &Entry) -> Polynomi
         _ => Quantity::AffineSpin.at([row, column]),
     };
     atom(one)
-}
-
-fn difference(mut a: Polynomial, b: &Polynomial) -> Polynomial {
-    a.add_scaled(b, &Rational::MINUS_ONE);
-    a
 }

@@ -1,9 +1,11 @@
 //! Affine velocity and Hamilton's equations, by matrices where a known form holds.
 
+use super::forces::{on_affine, on_linear};
 use super::hamiltonian::trace_coefficient;
 use super::inertia::inertial;
 use super::known_forms::{Shape, known_forms};
 use super::{Notation, Sentence, Sum, Summand, momentum, velocity};
+use crate::algebra::ring::pairs;
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -14,6 +16,7 @@ use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::Kinetics;
 use crate::mechanics::notation::{Letter, letters, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
+use crate::mechanics::term::Frame;
 
 /// Affine velocity and Hamilton's equations: as matrices where the known forms hold, by components otherwise.
 /// A potential adds its generalised force, named.
@@ -89,9 +92,9 @@ fn groups(chart: &Chart) -> Vec<Group> {
     };
     let all: [(Sentence, Vec<Coordinate>); 4] = [
         (letters::CENTRE.into(), (0..chart.x.len()).map(Coordinate::X).collect()),
-        (letters::PLACEMENT.into(), pairs(chart.dim, Coordinate::Phi)),
+        (letters::PLACEMENT.into(), pairs(chart.dim).map(|(i, a)| Coordinate::Phi(i, a)).collect()),
         (linear.into(), (0..chart.p.len()).map(Coordinate::P).collect()),
-        (momentum(chart.momentum), pairs(chart.dim, Coordinate::M)),
+        (momentum(chart.momentum), pairs(chart.dim).map(|(a, b)| Coordinate::M(a, b)).collect()),
     ];
     let group = |(of, coordinates)| Group { of, coordinates };
     all.map(group).into_iter().filter(|group| !group.coordinates.is_empty()).collect()
@@ -114,8 +117,7 @@ impl Group {
                 Coordinate::X(i) | Coordinate::P(i) => format!("{}", i + 1),
                 Coordinate::Carried(_) => String::new(),
             };
-            let mut sum = Sum::default();
-            sum.push(Summand::plus(notation.polynomial(arena, derived)));
+            let mut sum = Sum::new([Summand::plus(notation.polynomial(arena, derived))]);
             sum.extend(force.map(|(name, _)| Summand::plus(Sentence::Component(*name, index))));
             list.push(sum.of(rate(notation.scalar(arena, chart.symbol(*z)))));
         }
@@ -126,12 +128,8 @@ impl Group {
 /// The rate of a group with the force by name.
 fn with_force((kinetic, shape): (Sentence, Shape), force: Option<&ForceName>) -> (Sentence, Shape) {
     let Some((name, _)) = force else { return (kinetic, shape) };
-    let mut sum = Sum::default();
-    match shape {
-        Shape::Zero => {}
-        Shape::Commutator | Shape::Other => sum.push(Summand::plus(kinetic)),
-    }
-    sum.push(Summand::plus(*name));
+    let kinetic = (shape != Shape::Zero).then(|| Summand::plus(kinetic));
+    let sum = Sum::new(kinetic.into_iter().chain([Summand::plus(*name)]));
     (sum.value(), Shape::Other)
 }
 
@@ -155,39 +153,35 @@ fn force_names(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> [Option<ForceName>; 2] {
-    let placement = || Sentence::from(letters::PLACEMENT);
-    let (pull, push) = (
-        slope(letters::POTENTIAL, letters::CENTRE),
-        slope(letters::POTENTIAL, letters::PLACEMENT).transposed(),
-    );
-    let (linear, of_linear) = match chart.linear {
-        Some(Linear::Body) => (letters::COMOVING_FORCE, product([placement().transposed(), pull])),
-        _ => (letters::FORCE, pull),
+    let linear = match chart.linear {
+        Some(Linear::Body) => letters::COMOVING_FORCE,
+        _ => letters::FORCE,
     };
-    let (affine, of_affine) = match chart.momentum {
-        Momentum::Body => (letters::COMOVING_AFFINE_FORCE, product([push, placement()])),
-        Momentum::Space | Momentum::Total => (letters::AFFINE_FORCE, product([placement(), push])),
-        Momentum::Canonical => (letters::CANONICAL_FORCE, push),
+    let affine = match chart.frame() {
+        Frame::Body => letters::COMOVING_AFFINE_FORCE,
+        Frame::Space => letters::AFFINE_FORCE,
+        Frame::Flat => letters::CANONICAL_FORCE,
     };
-    let moves = potential.is_some_and(Potential::moves_the_centre);
-    let (mut on_linear, mut on_affine) = (Vec::new(), Vec::new());
-    on_linear.extend(moves.then(|| Summand::minus(of_linear)));
+    let (mut pulls, mut pushes) = (Vec::new(), Vec::new());
+    if potential.is_some_and(Potential::moves_the_centre) {
+        let pull = slope(letters::POTENTIAL, letters::CENTRE);
+        pulls.push(Summand::minus(on_linear(chart, pull)));
+    }
     if h.weight.is_some() {
         let share = &Rational::from(2) * &Rational::one_over(h.dim);
         let mut sum = Sum::default();
         let energy = product([letters::INTERNAL_ENERGY.into(), Sentence::One]);
         sum.add(arena, notation, &Polynomial::constant(share), energy);
-        on_affine.push(Summand::plus(sum.value()));
+        pushes.push(Summand::plus(sum.value()));
     }
-    on_affine.extend(potential.map(|_| Summand::minus(of_affine)));
-    forces.name_on(chart, &mut on_linear, &mut on_affine);
-    let joined = |name: Letter, parts: Vec<Summand>| {
-        let mut sum = Sum::default();
-        let acts = !parts.is_empty();
-        sum.extend(parts);
-        acts.then(|| (name, sum.value()))
-    };
-    [joined(linear, on_linear), joined(affine, on_affine)]
+    if potential.is_some() {
+        let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
+        pushes.push(Summand::minus(on_affine(chart, push)));
+    }
+    forces.name_on(chart, &mut pulls, &mut pushes);
+    let joined =
+        |name: Letter, parts: Vec<Summand>| (!parts.is_empty()).then(|| (name, Sum::new(parts).value()));
+    [joined(linear, pulls), joined(affine, pushes)]
 }
 
 /// The inverse Legendre transformation.
@@ -209,9 +203,7 @@ fn affine_velocity(
     let mut add = |coefficient: &Polynomial, body: Sentence| sum.add(arena, notation, coefficient, body);
     add(&iso.casimir2, x());
     add(&trace_coefficient(h, iso), product([trace(x()), Sentence::One]));
-    let mut skew = Sum::default();
-    skew.extend([Summand::plus(x()), Summand::minus(x().transposed())]);
-    add(&iso.skew.neg(), skew.value());
+    add(&iso.skew.neg(), skew(x()));
     add(&iso.casimir3, x().power(2));
     sum.of(omega)
 }
@@ -220,22 +212,16 @@ fn affine_velocity(
 pub(in crate::mechanics) fn projection(group: Constraint) -> Sentence {
     let x = || Sentence::from(letters::SPIN_IN_THE_BODY);
     let mean = || Summand::plus(product([Sentence::OverDimension(Box::new(trace(x()))), Sentence::One]));
-    let mut sum = Sum::default();
-    let skew = || {
-        let mut skew = Sum::default();
-        skew.extend([Summand::plus(x()), Summand::minus(x().transposed())]);
-        Summand::plus(Sentence::Over(Box::new(skew.value()), 2))
+    let half_skew = || Summand::plus(Sentence::Over(Box::new(skew(x())), 2));
+    let sum = match group {
+        Constraint::Isochoric => Sum::new([Summand::plus(x()), Summand { negative: true, ..mean() }]),
+        Constraint::Rigid => Sum::new([half_skew()]),
+        Constraint::Conformal => Sum::new([half_skew(), mean()]),
     };
-    match group {
-        Constraint::Isochoric => {
-            sum.extend([Summand::plus(x()), Summand { negative: true, ..mean() }]);
-        }
-        Constraint::Rigid => sum.push(skew()),
-        Constraint::Conformal => sum.extend([skew(), mean()]),
-    }
     sum.of(product([letters::PROJECTION.into(), x()]))
 }
 
-fn pairs(n: usize, make: fn(usize, usize) -> Coordinate) -> Vec<Coordinate> {
-    (0..n).flat_map(|i| (0..n).map(move |j| make(i, j))).collect()
+/// `x - x^T`.
+fn skew(x: Sentence) -> Sentence {
+    Sum::new([Summand::plus(x.clone()), Summand::minus(x.transposed())]).value()
 }

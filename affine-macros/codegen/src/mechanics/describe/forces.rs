@@ -4,7 +4,8 @@ use crate::algebra::{Arena, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::custom::{By, Custom, On, Role};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Notation, field_index, letters, product, rate, slope, trace};
+use crate::mechanics::notation::{Notation, field_index, letters, placement, product, rate, slope, trace};
+use crate::mechanics::term::Frame;
 use crate::symbol::Quantity;
 
 use super::{Sentence, Sum, Summand, centre_velocity, quadratic_terms};
@@ -25,10 +26,7 @@ impl Forces {
         let Some(dissipation) = &self.dissipation else { return };
         if dissipation.slows_the_centre() {
             let drag = slope(letters::RAYLEIGH, rate(letters::CENTRE));
-            linear.push(Summand::minus(match chart.linear {
-                Some(Linear::Body) => product([placement().transposed(), drag]),
-                _ => drag,
-            }));
+            linear.push(Summand::minus(on_linear(chart, drag)));
         }
         if !dissipation.parts.is_empty() {
             let velocity = match chart.momentum {
@@ -70,9 +68,7 @@ impl Forces {
             power.push(Summand::plus(Sentence::SlopeAtRest(letters::POTENTIAL)));
         }
         if !power.is_empty() {
-            let mut sum = Sum::default();
-            sum.extend(power);
-            list.push(sum.of(rate(letters::HAMILTONIAN)));
+            list.push(Sum::new(power).of(rate(letters::HAMILTONIAN)));
         }
         list
     }
@@ -117,38 +113,42 @@ fn symbol(custom: &Custom) -> Sentence {
     Sentence::OfField(letter, field_index(&custom.name))
 }
 
-fn placement() -> Sentence {
-    letters::PLACEMENT.into()
+/// The force on the linear momentum of a chart that one on `p` is: on `p_hat` pulled back.
+pub(super) fn on_linear(chart: &Chart, force: Sentence) -> Sentence {
+    match chart.linear {
+        Some(Linear::Body) => product([placement().transposed(), force]),
+        _ => force,
+    }
+}
+
+/// The force on the affine momentum of a chart that one on `Pi` is.
+pub(super) fn on_affine(chart: &Chart, force: Sentence) -> Sentence {
+    match chart.frame() {
+        Frame::Body => product([force, placement()]),
+        Frame::Space => product([placement(), force]),
+        Frame::Flat => force,
+    }
 }
 
 /// What a field adds to the forces on the linear and the affine momentum of a chart.
 fn custom_names(custom: &Custom, chart: &Chart) -> [Option<Summand>; 2] {
-    let comoving = chart.linear == Some(Linear::Body);
-    // Forces on `p_hat` are those on `p`, pulled back.
-    let pulled = |force: Sentence| if comoving { product([placement().transposed(), force]) } else { force };
     let force = symbol(custom);
     let inverse = || placement().inverse();
     match custom.role {
-        Role::Force { on: On::Centre, .. } => [Some(Summand::plus(pulled(force))), None],
+        Role::Force { on: On::Centre, .. } => [Some(Summand::plus(on_linear(chart, force))), None],
         Role::Force { on, .. } => {
-            let force = match (on, chart.momentum) {
-                (On::Space, Momentum::Body) => product([inverse(), force, placement()]),
-                (On::Space, Momentum::Canonical) => product([inverse(), force]),
-                (On::Body, Momentum::Space | Momentum::Total) => product([placement(), force, inverse()]),
-                (On::Body, Momentum::Canonical) => product([force, inverse()]),
-                _ => force,
+            let force = match (on, chart.frame()) {
+                (On::Space, Frame::Space) | (On::Body, Frame::Body) => force,
+                (On::Space, _) => on_affine(chart, product([inverse(), force])),
+                _ => on_affine(chart, product([force, inverse()])),
             };
             [None, Some(Summand::plus(force))]
         }
         Role::Potential { moves, .. } => {
-            let on_centre = moves.then(|| Summand::minus(pulled(slope(force.clone(), letters::CENTRE))));
+            let on_centre =
+                moves.then(|| Summand::minus(on_linear(chart, slope(force.clone(), letters::CENTRE))));
             let push = slope(force, letters::PLACEMENT).transposed();
-            let on_affine = match chart.momentum {
-                Momentum::Body => product([push, placement()]),
-                Momentum::Space | Momentum::Total => product([placement(), push]),
-                Momentum::Canonical => push,
-            };
-            [on_centre, Some(Summand::minus(on_affine))]
+            [on_centre, Some(Summand::minus(on_affine(chart, push)))]
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::inertia::{Inertial, inertial, scalar_inverse};
 use super::{Notation, Sentence, Sum, Summand, momentum};
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::substitute::listed;
+use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::forces::Forces;
@@ -77,8 +78,7 @@ fn internal(
         return Polynomial::zero();
     }
     let dependent = h.constraint.map_or_else(Vec::new, |group| group.dependent(&h.momentum));
-    let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
-    let written = h.internal().substitute(&value);
+    let written = h.internal().substitute(&listed(&dependent));
     sum.push(Summand::plus(notation.polynomial(arena, &written)));
     written
 }

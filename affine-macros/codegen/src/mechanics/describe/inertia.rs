@@ -1,12 +1,12 @@
 //! The energy of one matrix that is known when the model is prepared: `1/2 tr(X^T J^-1 X)`.
 
 use super::{Notation, Sentence, momentum, velocity};
-use crate::algebra::ring::pairs;
+use crate::algebra::ring::{self, pairs};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Momentum;
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::notation::{MatrixName, product, trace};
+use crate::mechanics::notation::{MatrixName, half, product, trace};
 use crate::mechanics::term::Coefficient;
 
 /// Energy and velocity through the inverse of a matrix.
@@ -42,7 +42,7 @@ pub(super) fn inertial(
     let Coefficient::Matrix(matrix) = &term.value else { return None };
     let name = notation.matrix_name(arena, &matrix.0);
     let tensor = term.kind.is_tensor();
-    let inverse = if tensor { whole_inverse(h) } else { inverse_on_rows(h)? };
+    let inverse = if tensor { h.slopes() } else { inverse_on_rows(h)? };
     is_inverse(arena, notation, (&name, &matrix.0), &inverse).then(|| {
         let momentum = Momentum::of(h.frame);
         if tensor { on_pairs(arena, &name, momentum) } else { on_rows(arena, &name, momentum) }
@@ -55,28 +55,19 @@ pub(super) fn scalar_inverse(h: &Hamiltonian) -> Option<Polynomial> {
         return None;
     }
     let inverse = inverse_on_rows(h)?;
-    let scalar = inverse[0][0].clone();
-    let fits = |k: usize, l: usize| if k == l { inverse[k][l] == scalar } else { inverse[k][l].is_zero() };
-    (0..h.dim).all(|k| (0..h.dim).all(|l| fits(k, l))).then_some(scalar)
-}
-
-/// `dO_k/dX_l` of entries row-major, `l` transposed.
-fn whole_inverse(h: &Hamiltonian) -> Vec<Vec<Polynomial>> {
-    let n = h.dim;
-    let entry = |k: usize, l: usize| h.velocity[k / n][k % n].derivative(h.momentum.0[l % n][l / n]);
-    (0..n * n).map(|k| (0..n * n).map(|l| entry(k, l)).collect()).collect()
+    (inverse == ring::scalar(h.dim, &inverse[0][0])).then(|| inverse[0][0].clone())
 }
 
 /// `J^-1` of `O = X^T J^-1`, where every row of `O` has the same.
 fn inverse_on_rows(h: &Hamiltonian) -> Option<Vec<Vec<Polynomial>>> {
     let n = h.dim;
-    let whole = whole_inverse(h);
+    let whole = h.slopes();
     let inverse: Vec<Vec<Polynomial>> = whole[..n].iter().map(|row| row[..n].to_vec()).collect();
     let fits = |k: usize, l: usize| match k / n == l / n {
         true => whole[k][l] == inverse[k % n][l % n],
         false => whole[k][l].is_zero(),
     };
-    (0..n * n).all(|k| (0..n * n).all(|l| fits(k, l))).then_some(inverse)
+    pairs(n * n).all(|(k, l)| fits(k, l)).then_some(inverse)
 }
 
 /// Is it the inverse of the matrix: its entries by name, or numbers and reciprocals whose product with the matrix is 1?
@@ -88,10 +79,8 @@ fn is_inverse(
 ) -> bool {
     let places = || pairs(matrix.len());
     let named = |i: usize, j: usize| {
-        let mut terms = inverse[i][j].terms();
-        let alone = terms.len() == 1;
-        let atom = terms.next().filter(|(monomial, c)| alone && monomial.len() == 1 && c.is_one());
-        atom.is_some_and(|(monomial, _)| notation.is_inverse_entry(monomial[0], name, (i + 1, j + 1)))
+        let atom = inverse[i][j].as_atom();
+        atom.is_some_and(|atom| notation.is_inverse_entry(atom, name, (i + 1, j + 1)))
     };
     let by_name: Vec<bool> = (0..matrix.len()).map(|i| (0..matrix.len()).any(|j| named(i, j))).collect();
     places().all(|(i, j)| match (by_name[i], by_name[j]) {
@@ -133,8 +122,4 @@ fn on_pairs(arena: &mut Arena, k: &MatrixName, of: Momentum) -> Inertial {
         ],
         on_pairs: true,
     }
-}
-
-fn half(arena: &mut Arena, of: Sentence) -> Sentence {
-    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }

@@ -6,7 +6,7 @@ use crate::algebra::ring::{self, Square, difference, outer, times, transpose};
 use crate::algebra::{Arena, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Linear};
 use crate::mechanics::hamiltonian::Hamiltonian;
-use crate::mechanics::notation::{commutator, letters, product, slope};
+use crate::mechanics::notation::{commutator, letters, placement, product, slope};
 use crate::mechanics::term::Frame;
 
 /// A matrix or vector formula with its components.
@@ -35,7 +35,7 @@ pub(super) fn known_forms(
 ) -> Vec<Known> {
     let n = chart.dim;
     let (phi, m) = (chart.placement(), chart.m.atoms());
-    let p: Vec<Polynomial> = chart.p.iter().map(|e| Polynomial::atom(*e)).collect();
+    let p = Polynomial::vector(&chart.p);
     let commutators = Commutators::of(chart);
     let omega = || Sentence::from(velocity(chart.momentum));
     let mut known = Vec::new();
@@ -75,14 +75,12 @@ fn translation(
     // rest + coefficient * body
     let mut sum =
         |rest: Option<Sentence>, weight: &Polynomial, body: Sentence, components: Vec<Polynomial>| {
-            let mut sum = Sum::default();
-            sum.extend(rest.map(Summand::plus));
+            let mut sum = Sum::new(rest.map(Summand::plus));
             sum.add(arena, notation, weight, body);
             Known { value: sum.value(), shape: Shape::Other, components }
         };
     let one = Polynomial::constant(Rational::ONE);
     let minus = inverse_mass.neg();
-    let placement = || Sentence::from(letters::PLACEMENT);
     let spatial = || Sentence::from(letters::LINEAR_MOMENTUM);
     // p_hat, or phi^T p where p is the momentum of the chart.
     let pulled = || if comoving { letters::COMOVING_LINEAR_MOMENTUM.into() } else { pulled_back_momentum() };

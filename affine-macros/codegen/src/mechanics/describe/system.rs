@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use super::{Notation, Sentence};
+use crate::algebra::definitions::used;
 use crate::algebra::kernel::Callee;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::charts::Coordinate;
@@ -56,14 +57,8 @@ fn shown(arena: &mut Arena, notation: &Notation, lines: Vec<Line>) -> Vec<Line> 
         lines.iter().filter(|line| line.is_rate).map(|line| notation.base(arena, line.symbol)).collect();
     lines.retain(|line| line.is_rate || known.insert(notation.base(arena, line.symbol)));
     loop {
-        let mut used = FxHashSet::default();
-        for line in &lines {
-            line.value.any_symbol(arena, &mut |symbol| {
-                used.insert(symbol);
-                false
-            });
-        }
-        let used: FxHashSet<Expr> = used.into_iter().map(|symbol| notation.base(arena, symbol)).collect();
+        let used = used(arena, lines.iter().map(|line| &line.value)).into_iter();
+        let used: FxHashSet<Expr> = used.map(|symbol| notation.base(arena, symbol)).collect();
         let count = lines.len();
         lines.retain(|line| line.is_rate || used.contains(&notation.base(arena, line.symbol)));
         if lines.len() == count {

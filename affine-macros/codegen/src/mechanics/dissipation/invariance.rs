@@ -5,7 +5,6 @@ use crate::algebra::ring::{Square, pairs, skew, sum, table};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::hamiltonian::{Hamiltonian, Isotropic, spatial_or_own};
-use crate::mechanics::shared::frame_of;
 use crate::mechanics::symmetry::{Group, Side, broken_by};
 
 use super::Dissipation;
@@ -20,7 +19,7 @@ impl Dissipation {
     /// where the forces leave `W` at rest, do not see the part `-W/mu` of the velocity, and the flow of the piece
     /// leaves them as they are: its Lie bracket with them vanishes.
     pub fn commutes_with_rotation(&self, chart: &Chart, h: &Hamiltonian, iso: &Isotropic) -> bool {
-        let own = frame_of(chart);
+        let own = chart.frame();
         let centre =
             self.centre.iter().all(|(frame, _)| h.translation.as_ref().is_some_and(|(m, _)| m == frame));
         // Under a constraint the forces are projected: not decided.

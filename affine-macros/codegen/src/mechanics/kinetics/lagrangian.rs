@@ -5,6 +5,7 @@
 //! fixed velocity is `E T = s E w + E T|w`, `E` the [derivations](super::action) of the chart.
 
 use crate::algebra::ring::{Square, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::metric::Definitions;
@@ -124,8 +125,7 @@ impl Lagrangian {
 
     /// With the values that quantities of the placement have on the group.
     pub(super) fn placed(&self, p: &Polynomial) -> Polynomial {
-        let known = |atom: Expr| self.on_the_group.iter().find(|(symbol, _)| *symbol == atom);
-        p.substitute(&|atom| known(atom).map(|(_, value)| value.clone()))
+        p.substitute(&listed(&self.on_the_group))
     }
 }
 
@@ -136,11 +136,9 @@ fn chain(slopes: &[Polynomial], values: impl Iterator<Item = Polynomial>) -> Pol
 
 /// The values by their names, where there are names; values that are symbols already stay what they are.
 pub fn named(symbols: &[Expr], values: Vec<Polynomial>, shared: &mut Definitions) -> Vec<Polynomial> {
-    let is_symbol =
-        |p: &Polynomial| p.terms().len() == 1 && p.terms().all(|(m, c)| m.len() == 1 && c.is_one());
-    if symbols.is_empty() || values.iter().all(is_symbol) {
+    if symbols.is_empty() || values.iter().all(|value| value.as_atom().is_some()) {
         return values;
     }
     shared.extend(symbols.iter().copied().zip(values));
-    symbols.iter().map(|symbol| Polynomial::atom(*symbol)).collect()
+    Polynomial::vector(symbols)
 }

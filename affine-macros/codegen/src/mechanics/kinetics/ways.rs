@@ -7,8 +7,7 @@
 //! members of a class differ by multiples of the identity, and one entry of the sum tells which is meant: there the first
 //! holds as well.
 
-use rustc_hash::FxHashSet;
-
+use crate::algebra::definitions::needed;
 use crate::algebra::ring::{Square, pairs, table};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Coordinate;
@@ -161,7 +160,8 @@ impl Lagrangian {
         let known = |symbol: &Expr| inverse.iter().any(|(found, _)| found == symbol);
         let shared = way.shared.iter().filter(|(symbol, _)| !known(symbol));
         let shared: Definitions = shared.map(|(symbol, value)| (*symbol, self.placed(value))).collect();
-        let shared = needed(arena, shared, force.iter().flatten());
+        let needed = needed(arena, &shared, force.iter().flatten());
+        let shared: Definitions = shared.into_iter().filter(|(symbol, _)| needed.contains(symbol)).collect();
         let quantities = of_the_placement(arena, n);
         let missing = |p: &Polynomial| p.mentions(|atom| quantities.contains(&atom) && !known(&atom));
         if force.iter().flatten().chain(shared.iter().map(|(_, value)| value)).any(missing) {
@@ -177,25 +177,6 @@ impl Lagrangian {
             forces: forces.filter(|(_, force)| !force.is_zero()).collect(),
         })
     }
-}
-
-/// The definitions that the results need.
-fn needed<'a>(
-    arena: &Arena,
-    shared: Definitions,
-    results: impl Iterator<Item = &'a Polynomial>,
-) -> Definitions {
-    let mut found: FxHashSet<Expr> = FxHashSet::default();
-    let mut open: Vec<&Polynomial> = results.collect();
-    while let Some(polynomial) = open.pop() {
-        polynomial.any_symbol(arena, &mut |symbol| {
-            if found.insert(symbol) {
-                open.extend(shared.iter().filter(|(known, _)| *known == symbol).map(|(_, value)| value));
-            }
-            false
-        });
-    }
-    shared.iter().filter(|(symbol, _)| found.contains(symbol)).cloned().collect()
 }
 
 /// Multiplications and additions of the equations as they are written, before anything is shared between them.

@@ -59,11 +59,6 @@ fn changed(term: &Term, frame: Frame, axes: [&Axes; 2], given: &Square<Polynomia
     product(&product(&matrix, given), &transpose(&matrix))
 }
 
-fn polynomials(arena: &mut Arena, matrix: &Matrix) -> Square<Polynomial> {
-    let mut entry = |e: &Expr| Polynomial::normal_form(arena, *e);
-    matrix.0.iter().map(|row| row.iter().map(&mut entry).collect()).collect()
-}
-
 /// Terms with matrices, and the frames of their velocities.
 fn matrices(terms: &[Term]) -> impl Iterator<Item = (usize, &Term, &Matrix, Frame)> {
     terms.iter().enumerate().filter_map(|(place, term)| match &term.value {
@@ -78,10 +73,10 @@ impl Metrics {
     pub fn orthonormal(&self, arena: &mut Arena, terms: &[Term], rebased: &mut Vec<Rebased>) -> Vec<Term> {
         let mut changed = terms.to_vec();
         for (place, term, matrix, frame) in matrices(terms) {
-            let given = polynomials(arena, matrix);
+            let given = matrix.normal_form(arena);
             let value = match self {
                 Self::Known(bases) => bases.normalised(arena, term, frame, &given),
-                Self::Given(metrics) => to_prepare(arena, metrics, (term, frame), &given, rebased),
+                Self::Given(metrics) => form_to_prepare(arena, metrics, (term, frame), &given, rebased),
             };
             changed[place].value = Coefficient::Matrix(value);
         }
@@ -107,47 +102,55 @@ impl Metrics {
                     Matrix(rows.iter().map(|row| row.iter().map(&mut constant).collect()).collect())
                 });
             }
-            Self::Given(metrics) => {
-                metrics.each_ref().map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))))
-            }
+            Self::Given(metrics) => patterns(arena, metrics),
         };
         [(&space.inverse, Source::SpaceInverse), (&body.matrix, Source::Body)].map(|(pattern, source)| {
-            let number = rebased.len() + 1;
-            let entry = |i: usize, j: usize| match pattern[i][j].is_zero() {
-                true => arena.constant(Rational::ZERO),
-                false => arena.symbol(Symbol::Prepared(number, i + 1, j + 1)),
-            };
-            let n = pattern.len();
-            let symbols = table(n, entry);
-            rebased.push(Rebased { number, source });
-            Matrix(symbols)
+            to_prepare(arena, source, (pattern.len(), &|i, j| pattern[i][j].is_zero()), rebased)
         })
     }
 }
 
-/// Symbols for the entries that can differ from zero.
+/// Where the factors of metrics that depend on fields can differ from zero.
+fn patterns(arena: &mut Arena, metrics: &[Vec<Vec<Expr>>; 2]) -> [Axes; 2] {
+    metrics.each_ref().map(|rows| Axes::pattern(&Matrix(rows.clone()).normal_form(arena)))
+}
+
+/// The matrix that `prepare()` makes from `source`: symbols for the entries that do not vanish.
 fn to_prepare(
     arena: &mut Arena,
-    [space, body]: &[Vec<Vec<Expr>>; 2],
+    source: Source,
+    (size, vanishes): (usize, &dyn Fn(usize, usize) -> bool),
+    rebased: &mut Vec<Rebased>,
+) -> Matrix {
+    let number = rebased.len() + 1;
+    let is_symmetric = matches!(source, Source::Form(..));
+    rebased.push(Rebased { number, source });
+    Matrix(table(size, |i, j| {
+        let (row, column) = if is_symmetric { (i.min(j), i.max(j)) } else { (i, j) };
+        match vanishes(i, j) {
+            true => arena.constant(Rational::ZERO),
+            false => arena.symbol(Symbol::Prepared(number, row + 1, column + 1)),
+        }
+    }))
+}
+
+/// The same of a form, whose entries can differ from zero where they do so in some bases.
+fn form_to_prepare(
+    arena: &mut Arena,
+    metrics: &[Vec<Vec<Expr>>; 2],
     (term, frame): (&Term, Frame),
     given: &Square<Polynomial>,
     rebased: &mut Vec<Rebased>,
 ) -> Matrix {
-    let [space, body] = [space, body].map(|rows| Axes::pattern(&polynomials(arena, &Matrix(rows.clone()))));
+    let [space, body] = patterns(arena, metrics);
     let one = |entry: &Polynomial| {
         if entry.is_zero() { Polynomial::zero() } else { Polynomial::constant(Rational::ONE) }
     };
     let ones: Square<Polynomial> = given.iter().map(|row| row.iter().map(one).collect()).collect();
     let filled = changed(term, frame, [&space, &body], &ones);
-    let number = rebased.len() + 1;
     let entries = given.iter().flatten().map(|entry| entry.expression(arena)).collect();
-    let symbol = |r: usize, s: usize| match filled[r][s].is_zero() {
-        true => arena.constant(Rational::ZERO),
-        false => arena.symbol(Symbol::Prepared(number, r.min(s) + 1, r.max(s) + 1)),
-    };
-    let symbols = table(given.len(), symbol);
-    rebased.push(Rebased { number, source: Source::Form(term.kind, entries) });
-    Matrix(symbols)
+    let source = Source::Form(term.kind, entries);
+    to_prepare(arena, source, (given.len(), &|i, j| filled[i][j].is_zero()), rebased)
 }
 
 impl Bases {
@@ -198,20 +201,15 @@ impl Bases {
         let mut sum = energy(&by_rows, &is_inertia, arena);
         sum.add_scaled(&energy(&Polynomial::clone, &|term| !is_inertia(term), arena), &Rational::ONE);
 
-        let pair = |k: usize, l: usize| {
+        let product = |velocities: &[usize]| {
             let mut exponents = Exponents::new(n, frame);
-            [k, l].iter().for_each(|entry| exponents.multiply(*entry));
-            exponents
-        };
-        let weights: Option<Square<Rational>> =
-            (0..n * n).map(|k| (0..n * n).map(|l| self.root(&pair(k, l))).collect()).collect();
-        let weights = weights?;
-        let single = |k: usize| {
-            let mut exponents = Exponents::new(n, frame);
-            exponents.multiply(k);
+            velocities.iter().for_each(|entry| exponents.multiply(*entry));
             self.root(&exponents)
         };
-        let roots: Vec<Rational> = (0..n * n).map(single).collect::<Option<_>>()?;
+        let weights: Option<Square<Rational>> =
+            (0..n * n).map(|k| (0..n * n).map(|l| product(&[k, l])).collect()).collect();
+        let weights = weights?;
+        let roots: Vec<Rational> = (0..n * n).map(|k| product(&[k])).collect::<Option<_>>()?;
         let entries = velocity.concat();
         let square = |k: usize, l: usize| &weights[k][k] * &weights[l][l];
         let exact = sum.terms().all(|(monomial, _)| {
@@ -234,7 +232,7 @@ impl Bases {
         let [_, right] = sides(frame, self.axes());
         let value = match &term.value {
             Coefficient::Matrix(matrix) => {
-                let given = polynomials(arena, matrix);
+                let given = matrix.normal_form(arena);
                 let rational = changed(term, frame, self.axes(), &given);
                 let rows = rational.iter().map(|row| row.iter().map(|e| e.expression(arena)).collect());
                 Coefficient::Matrix(Matrix(rows.collect()))

@@ -3,12 +3,13 @@
 //! With `v_hat = phi^-1 x_dot` and `p_hat = phi^T p = (m_body 1 + m_space G) v_hat` the Hamiltonian is
 //! `1/2 p_hat^T (m_body 1 + m_space G)^-1 p_hat`.
 
-use crate::algebra::ring::{Square, table, times};
+use crate::algebra::ring::{Square, add_multiple, scalar, times, transpose};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian, Part};
-use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::metric::Definitions;
+use crate::mechanics::shared::inverse_placement;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Aspect, Factorised, Quantity};
 
@@ -63,17 +64,19 @@ impl Masses {
         self.body.xor(self.space)
     }
 
+    /// `m_body` and `m_space`, zero where there is none.
+    pub(super) fn of_body_and_space(&self, arena: &mut Arena) -> [Polynomial; 2] {
+        [self.body, self.space]
+            .map(|mass| mass.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass)))
+    }
+
     /// `m_body 1 + m_space G`.
     fn matrix(&self, arena: &mut Arena) -> Square<Polynomial> {
         let green = green(arena, self.dim);
-        let mut mass =
-            |mass: Option<Expr>| mass.map_or_else(Polynomial::zero, |m| Polynomial::normal_form(arena, m));
-        let (body, space) = (mass(self.body), mass(self.space));
-        table(self.dim, |a, b| {
-            let mut entry = if a == b { body.clone() } else { Polynomial::zero() };
-            entry.add_product(&space, &green[a][b], &Rational::ONE);
-            entry
-        })
+        let [body, space] = self.of_body_and_space(arena);
+        let mut matrix = scalar(self.dim, &body);
+        add_multiple(&mut matrix, &space, &green);
+        matrix
     }
 
     /// Its factorisation, with the definitions that lead there. `None` where it is singular at every placement.
@@ -97,34 +100,26 @@ impl Masses {
         ]
         .map(|of| arena.components(of, n));
         let mut shared = Definitions::new();
-        let reciprocal = |arena: &mut Arena, mass: Expr| Polynomial::reciprocal(arena, mass);
-        match (self.body, self.space) {
-            (None, None) => return None,
-            (None, Some(mass)) => {
-                let reciprocal = reciprocal(arena, mass)?;
-                shared.extend(x_dot.iter().zip(&p).map(|(x, p)| (*x, reciprocal.mul(&Polynomial::atom(*p)))));
-                return Some((x_dot, shared));
-            }
-            (Some(_), _) => {}
+        if self.body.is_none() {
+            let reciprocal = Polynomial::reciprocal(arena, self.space?)?;
+            shared.extend(x_dot.iter().zip(&p).map(|(x, p)| (*x, reciprocal.mul(&Polynomial::atom(*p)))));
+            return Some((x_dot, shared));
         }
-        for (a, symbol) in p_hat.iter().enumerate() {
-            shared.push((*symbol, along(arena, n, |i| ((i, a), p[i]))));
-        }
-        let p_hat: Vec<Polynomial> = p_hat.into_iter().map(Polynomial::atom).collect();
-        match (self.body, self.are_mixed()) {
-            (Some(mass), false) => {
-                let reciprocal = reciprocal(arena, mass)?;
+        let phi = Matrix::symbols(arena, Quantity::Placement, n).atoms();
+        shared.extend(p_hat.iter().copied().zip(times(&transpose(&phi), &Polynomial::vector(&p))));
+        let p_hat = Polynomial::vector(&p_hat);
+        match self.single() {
+            Some(mass) => {
+                let reciprocal = Polynomial::reciprocal(arena, mass)?;
                 shared.extend(v_hat.iter().zip(&p_hat).map(|(v, p)| (*v, p.mul(&reciprocal))));
             }
-            _ => {
+            None => {
                 let (factorisation, definitions) = self.factorised(arena)?;
                 shared.extend(definitions);
                 factorisation.solve(arena, Factorised::Centre, &p_hat, &v_hat, &mut shared);
             }
         }
-        for (i, symbol) in x_dot.iter().enumerate() {
-            shared.push((*symbol, along(arena, n, |a| ((i, a), v_hat[a]))));
-        }
+        shared.extend(x_dot.iter().copied().zip(times(&phi, &Polynomial::vector(&v_hat))));
         Some((x_dot, shared))
     }
 
@@ -132,14 +127,14 @@ impl Masses {
     pub fn kinetics(&self, arena: &mut Arena, chart: &Chart) -> Option<Kinetics> {
         let (x_dot, inverse) = self.velocity(arena)?;
         let lagrangian = self.lagrangian(arena, chart, &x_dot);
-        let velocity = Matrix::symbols(arena, chart.momentum.velocity(), self.dim);
+        let velocity = chart.velocity(arena);
         lagrangian.kinetics(arena, &velocity, &inverse).into_iter().next()
     }
 
     /// What `p` and the energy share, `p`, and the energy, from `phi` and `x_dot` under any names.
     pub fn legendre(&self, arena: &mut Arena, x_dot: &[Expr]) -> (Definitions, Vec<Polynomial>, Polynomial) {
         let chart = Chart::new(arena, self.dim, Momentum::Canonical, Some(Linear::Space));
-        let (_, mut shared) = inverse_placement(arena, self.dim);
+        let (_, mut shared) = inverse_placement(arena, &chart.placement());
         let (definitions, momentum, energy) = self.lagrangian(arena, &chart, x_dot).legendre(false);
         shared.extend(definitions);
         (shared, momentum, energy)
@@ -153,15 +148,14 @@ impl Masses {
             let energy: Polynomial =
                 velocities.iter().map(|v| Polynomial::term(vec![*v, *v], half.clone())).sum();
             let energy = energy.mul(&Polynomial::normal_form(arena, mass));
-            let (slopes, momenta) = (Vec::new(), Vec::new());
-            Part { velocities, definitions: None, energy, slopes, momenta }
+            Part { velocities, definitions: None, energy, slopes: Vec::new(), momenta: Vec::new() }
         };
         let mut parts = Vec::new();
         parts.extend(self.space.map(|mass| part(arena, mass, x_dot.to_vec())));
         if let Some(mass) = self.body {
             let psi = Matrix::symbols(arena, Quantity::InversePlacement, n).atoms();
             let v_hat: Vec<Expr> = arena.components(Quantity::ComovingCentreVelocity, n);
-            let definitions = times(&psi, &x_dot.iter().map(|v| Polynomial::atom(*v)).collect::<Vec<_>>());
+            let definitions = times(&psi, &Polynomial::vector(x_dot));
             let momenta = shares(arena, Aspect::InTheBody, &chart.p);
             parts.push(Part { definitions: Some(definitions), momenta, ..part(arena, mass, v_hat) });
         }
@@ -172,23 +166,8 @@ impl Masses {
 
     /// `p . x_dot/2`.
     pub fn energy(&self, arena: &mut Arena, chart: &Chart) -> Polynomial {
-        let half = Rational::HALF;
-        let mut sum = Polynomial::zero();
-        for (i, p) in chart.p.iter().enumerate() {
-            let x_dot = arena.symbol(Quantity::CentreVelocity.at([i + 1]));
-            sum.add_term(vec![x_dot, *p], &half);
-        }
-        sum
+        let x_dot = arena.components(Quantity::CentreVelocity, chart.p.len());
+        let products = x_dot.iter().zip(&chart.p).map(|(v, p)| Polynomial::monomial([*v, *p]));
+        products.sum::<Polynomial>().scaled(&Rational::HALF)
     }
-}
-
-/// `sum over k of phi[place] * symbol`.
-fn along(arena: &mut Arena, n: usize, factor: impl Fn(usize) -> ((usize, usize), Expr)) -> Polynomial {
-    let mut sum = Polynomial::zero();
-    for k in 0..n {
-        let ((i, a), symbol) = factor(k);
-        let phi = arena.symbol(Quantity::Placement.at([i + 1, a + 1]));
-        sum.add_term(vec![phi, symbol], &Rational::ONE);
-    }
-    sum
 }

@@ -8,12 +8,12 @@
 
 use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Square, components, pairing, upper};
+use crate::algebra::ring::{Square, components, pairing, table, upper};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::group_point::GroupPoint;
 use crate::mechanics::metric::Definitions;
-use crate::symbol::{Factor, Factorised, Symbol};
+use crate::symbol::{Factor, Factorised, Quantity, Symbol};
 
 /// A direction in the space that the matrix acts on: indices and weights.
 type Direction = Vec<(usize, Rational)>;
@@ -97,6 +97,20 @@ impl Factorisation {
             }
         }
         list
+    }
+
+    /// The solution for momenta as a numbered column of an inverse, with what leads there.
+    pub fn column(
+        &self,
+        arena: &mut Arena,
+        number: usize,
+        momenta: &[Polynomial],
+        shared: &mut Definitions,
+    ) -> Vec<Expr> {
+        let entry = |row: usize| Quantity::InverseColumn.at([row, number]);
+        let solution: Vec<Expr> = (1..=momenta.len()).map(|row| arena.symbol(entry(row))).collect();
+        self.solve(arena, Factorised::Column(number), momenta, &solution, shared);
+        solution
     }
 
     /// Defines the symbols of `solution` as that of `matrix solution = right`, with what leads there.
@@ -192,13 +206,13 @@ fn ordered(
     members: &[usize],
     points: &[GroupPoint; 2],
 ) -> Option<(Vec<Direction>, Square<Polynomial>)> {
+    let values = points
+        .each_ref()
+        .map(|point| -> Square<Residue> { table(matrix.len(), |k, l| point.evaluate(arena, &matrix[k][l])) });
     let mut open: Vec<Direction> = members.iter().map(|k| vec![(*k, Rational::ONE)]).collect();
     let mut basis: Vec<Direction> = Vec::new();
     while !open.is_empty() {
-        let [generic, undeformed] = points.each_ref().map(|point| {
-            let value = |k: usize, l: usize| point.evaluate(arena, &matrix[k][l]);
-            complement(&value, &basis, &open)
-        });
+        let [generic, undeformed] = values.each_ref().map(|values| complement(values, &basis, &open));
         let places = || 0..open.len();
         let alive = |k: &usize| generic[*k][*k].is_nonzero();
         let both = |k: &usize| alive(k) && undeformed[*k][*k].is_nonzero();
@@ -217,27 +231,14 @@ fn ordered(
             (None, None, None, None) => return None,
         }
     }
-    let form = basis.iter().map(|a| basis.iter().map(|b| pairing(matrix, a, b)).collect()).collect();
+    let form = table(basis.len(), |k, l| pairing(matrix, &basis[k], &basis[l]));
     Some((basis, form))
 }
 
 /// The form on the open directions once those of the basis are eliminated, at a point.
-fn complement(
-    value: &impl Fn(usize, usize) -> Residue,
-    basis: &[Direction],
-    open: &[Direction],
-) -> Square<Residue> {
+fn complement(values: &Square<Residue>, basis: &[Direction], open: &[Direction]) -> Square<Residue> {
     let all: Vec<&Direction> = basis.iter().chain(open).collect();
-    let on = |a: &Direction, b: &Direction| {
-        let mut sum = Residue::ZERO;
-        for (k, wk) in a {
-            for (l, wl) in b {
-                sum = sum.add(&Residue::from_rational(&(wk * wl)).mul(&value(*k, *l)));
-            }
-        }
-        sum
-    };
-    let mut form: Square<Residue> = all.iter().map(|a| all.iter().map(|b| on(a, b)).collect()).collect();
+    let mut form: Square<Residue> = table(all.len(), |k, l| pairing(values, all[k], all[l]));
     let minus = Residue::from_rational(&Rational::MINUS_ONE);
     for k in 0..basis.len() {
         let reciprocal = form[k][k].recip().unwrap_or(Residue::UNKNOWN);

@@ -1,11 +1,11 @@
 //! A mixed energy and its equations as formulas.
 
-use crate::algebra::{Arena, Polynomial, Rational};
+use crate::algebra::{Arena, Polynomial};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::describe::{Notation, Sentence, Sum, Summand, projection};
 use crate::mechanics::forces::Forces;
-use crate::mechanics::notation::{Letter, letters, product, rate, slope, trace};
+use crate::mechanics::notation::{half, letters, placement, product, rate, slope, trace};
 use crate::mechanics::potential::Potential;
 use crate::mechanics::term::Frame;
 
@@ -39,24 +39,11 @@ impl Laws {
     /// Those of parts in the velocities of some frames, on a group or on all placements.
     fn of(frames: &[Frame], confined: bool) -> Self {
         let laws: Vec<&Law> = frames.iter().map(|frame| law(*frame, confined)).collect();
-        let (mut momentum, mut rate) = (Sum::default(), Sum::default());
-        momentum.extend(laws.iter().map(|law| Summand::plus((law.momentum)())));
-        rate.extend(laws.iter().filter_map(|law| law.rate).map(|rate| rate()));
+        let momentum = Sum::new(laws.iter().map(|law| Summand::plus((law.momentum)())));
+        let rate = Sum::new(laws.iter().filter_map(|law| law.rate).map(|rate| rate()));
         let own = laws.iter().filter_map(|law| law.own).map(|(name, value)| value().of(name)).collect();
         Self { own, momentum: momentum.value(), rate }
     }
-}
-
-fn letter(letter: Letter) -> Sentence {
-    letter.into()
-}
-
-fn placement() -> Sentence {
-    letter(letters::PLACEMENT)
-}
-
-fn half(arena: &mut Arena, of: Sentence) -> Sentence {
-    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }
 
 /// `H` through the velocities.
@@ -68,10 +55,9 @@ pub fn hamiltonian(
     potential: Option<&Potential>,
     forces: &Forces,
 ) -> Sentence {
-    let mut sum = Sum::default();
-    sum.push(Summand::plus(internal));
+    let mut sum = Sum::new([Summand::plus(internal)]);
     if !masses.are_none() {
-        let power = product([letter(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
+        let power = product([Sentence::from(letters::LINEAR_MOMENTUM).transposed(), rate(letters::CENTRE)]);
         sum.push(Summand::plus(half(arena, power)));
     }
     if let Some(u) = potential {
@@ -84,8 +70,8 @@ pub fn hamiltonian(
 /// The kinetic energy of the internal motion, through velocity and momentum.
 pub fn internal_energy(arena: &mut Arena, confined: bool) -> Sentence {
     let factors = match confined {
-        false => [letter(letters::CANONICAL_MOMENTUM), rate(letters::PLACEMENT)],
-        true => [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY].map(letter),
+        false => [Sentence::from(letters::CANONICAL_MOMENTUM), rate(letters::PLACEMENT)],
+        true => [letters::COMOVING_AFFINE_SPIN, letters::COMOVING_AFFINE_VELOCITY].map(Sentence::from),
     };
     half(arena, trace(product(factors)))
 }
@@ -100,10 +86,9 @@ pub fn internal_equations(
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, false);
     if masses.body.is_some() {
-        let mut sum = Sum::default();
-        sum.push(Summand::plus(letters::LINEAR_MOMENTUM));
-        let space = space_mass(arena, masses).neg();
-        sum.add(arena, notation, &space, rate(letters::CENTRE));
+        let mut sum = Sum::new([Summand::plus(letters::LINEAR_MOMENTUM)]);
+        let [_, space] = masses.of_body_and_space(arena);
+        sum.add(arena, notation, &space.neg(), rate(letters::CENTRE));
         let own = sum.value().transposed();
         force.push(Summand::minus(product([placement().inverse(), rate(letters::CENTRE), own])));
     }
@@ -113,9 +98,8 @@ pub fn internal_equations(
     list.push(Sentence::Solved(Box::new(momentum), Box::new(rate(letters::PLACEMENT))));
     list.push(force.of(rate(letters::CANONICAL_MOMENTUM)));
     if potential.is_some() {
-        let mut force = Sum::default();
-        force.push(Summand::minus(slope(letters::POTENTIAL, letters::PLACEMENT).transposed()));
-        list.push(force.of(letters::CANONICAL_FORCE));
+        let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
+        list.push(Sum::new([Summand::minus(push)]).of(letters::CANONICAL_FORCE));
     }
     list
 }
@@ -130,11 +114,9 @@ pub fn confined_equations(
     names: &ForceNames,
 ) -> Vec<Sentence> {
     let Laws { own: mut list, momentum, rate: mut force } = Laws::of(frames, true);
-    if let Some(mass) = masses.body {
-        let mass = Polynomial::normal_form(arena, mass).neg();
-        let v = || letter(letters::COMOVING_CENTRE_VELOCITY);
-        force.add(arena, notation, &mass, product([v(), v().transposed()]));
-    }
+    let [mass, _] = masses.of_body_and_space(arena);
+    let v = || Sentence::from(letters::COMOVING_CENTRE_VELOCITY);
+    force.add(arena, notation, &mass.neg(), product([v(), v().transposed()]));
     force.extend(potential.map(|_| Summand::plus(letters::COMOVING_AFFINE_FORCE)));
     force.extend(names.on_affine.iter().cloned());
     let projected = |of: Sentence| Sentence::Applied(letters::PROJECTION, vec![of]);
@@ -145,29 +127,23 @@ pub fn confined_equations(
     list.push(projection(group));
     if potential.is_some() {
         let push = slope(letters::POTENTIAL, letters::PLACEMENT).transposed();
-        let mut force = Sum::default();
-        force.push(Summand::minus(product([push, placement()])));
-        list.push(force.of(letters::COMOVING_AFFINE_FORCE));
+        let force = Summand::minus(product([push, placement()]));
+        list.push(Sum::new([force]).of(letters::COMOVING_AFFINE_FORCE));
     }
     list
 }
 
-/// The mass of the energy `m/2 |x_dot|^2`.
-fn space_mass(arena: &mut Arena, masses: &Masses) -> Polynomial {
-    masses.space.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass))
-}
-
 /// The velocity of the centre of mass; `None` where it does not move.
 fn centre_velocity(arena: &mut Arena, notation: &Notation, masses: &Masses) -> Option<Sentence> {
-    let p = || letter(letters::LINEAR_MOMENTUM);
+    let p = || Sentence::from(letters::LINEAR_MOMENTUM);
     let pulled = || [placement().transposed(), p()];
     let mut sum = Sum::default();
     let (mass, of) = match (masses.body, masses.space) {
         (None, None) => return None,
         (Some(mass), None) => (mass, product([placement(), product(pulled())])),
         (None, Some(mass)) => (mass, p()),
-        (Some(mass), Some(_)) => {
-            let (space, body) = (space_mass(arena, masses), Polynomial::normal_form(arena, mass));
+        (Some(_), Some(_)) => {
+            let [body, space] = masses.of_body_and_space(arena);
             sum.add(arena, notation, &space, letters::GREEN);
             // A multiple of the identity.
             sum.add_number(arena, notation, &body);
@@ -189,10 +165,8 @@ pub fn centre_equations(
     names: &ForceNames,
 ) -> Vec<Sentence> {
     let Some(velocity) = centre_velocity(arena, notation, masses) else { return Vec::new() };
-    let mut force = Sum::default();
-    if potential.is_some_and(Potential::moves_the_centre) {
-        force.push(Summand::minus(slope(letters::POTENTIAL, letters::CENTRE)));
-    }
-    force.extend(names.on_linear.iter().cloned());
+    let pull = potential.filter(|u| u.moves_the_centre());
+    let pull = pull.map(|_| Summand::minus(slope(letters::POTENTIAL, letters::CENTRE)));
+    let force = Sum::new(pull.into_iter().chain(names.on_linear.iter().cloned()));
     vec![velocity, force.of(rate(letters::LINEAR_MOMENTUM))]
 }

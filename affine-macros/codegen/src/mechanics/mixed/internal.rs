@@ -4,6 +4,7 @@
 //! not turn with `phi`.
 
 use crate::algebra::ring::{Square, product, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::constraint::Constraint;
@@ -11,7 +12,6 @@ use crate::mechanics::direction::{BasisVector, entries, invariant};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Kinetics, Lagrangian};
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Factorised, Quantity};
 
@@ -61,7 +61,7 @@ impl Internal {
             .sum();
         let on_the_group = Placed::new(arena, mixed.dim, mixed.constraint).values(arena);
         let lagrangian = mixed.lagrangian(arena, &chart, on_the_group, true);
-        let velocity = Matrix::symbols(arena, frame_of(&chart).velocity(), mixed.dim);
+        let velocity = Matrix::symbols(arena, chart.frame().velocity(), mixed.dim);
         Some(Self { shared, velocity, factorisation, energy, mixed: mixed.clone(), lagrangian })
     }
 
@@ -72,7 +72,7 @@ impl Internal {
 
     /// The frame of velocity and momentum.
     pub fn frame(&self) -> Frame {
-        frame_of(&self.lagrangian.chart)
+        self.lagrangian.chart.frame()
     }
 
     /// Hamilton's equations, in each way that may be the shortest.
@@ -93,11 +93,7 @@ impl Internal {
                     if k % n == unit % n { phi[unit / n][k / n].clone() } else { Polynomial::zero() }
                 };
                 let momenta: Vec<Polynomial> = basis.iter().map(|e| along(e, momentum)).collect();
-                let column = first + unit;
-                let speeds: Vec<Expr> = (1..=basis.len())
-                    .map(|row| arena.symbol(Quantity::InverseColumn.at([row, column])))
-                    .collect();
-                self.factorisation.solve(arena, Factorised::Column(column), &momenta, &speeds, &mut shared);
+                let speeds = self.factorisation.column(arena, first + unit, &momenta, &mut shared);
                 let velocity = composed(&basis, &speeds, n * n);
                 let velocity = table(n, |a, b| velocity[n * a + b].clone());
                 product(&phi, &velocity).concat()
@@ -125,7 +121,7 @@ impl Internal {
         let lagrangian = self.mixed.lagrangian(arena, &self.lagrangian.chart, on_the_group, through_green);
         // Of the entries of Oh those that determine the others.
         let dependent = group.dependent(&self.velocity);
-        let value = |atom: Expr| dependent.iter().find(|(s, _)| *s == atom).map(|(_, value)| value.clone());
+        let value = listed(&dependent);
         let forms = [false, true].map(|by_names| {
             let (shared, momentum, energy) = lagrangian.legendre(by_names);
             let shared = placed.shared.iter().cloned().chain(shared);
@@ -174,17 +170,17 @@ impl Solved {
         let n = mixed.dim;
         let basis = basis(chart);
         let mut placed = Placed::new(arena, n, chart.confined);
-        let matrix = mass_matrix(arena, &mut placed, &mixed.internal, frame_of(chart), &basis);
+        let matrix = mass_matrix(arena, &mut placed, &mixed.internal, chart.frame(), &basis);
         let mut shared = placed.shared;
         let factorisation = Factorisation::new(arena, Factorised::Internal, &matrix, &mut shared, chart)?;
         // The momentum conjugate to O_ab is M_ba.
         let conjugate = chart.m.transpose().0.concat();
         let momentum = |e: &BasisVector| chart.reduced(&along(e, |k| Polynomial::atom(conjugate[k])));
         let momenta: Vec<Polynomial> = basis.iter().map(momentum).collect();
-        let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), n).0.concat();
+        let velocity = Matrix::symbols(arena, chart.frame().velocity(), n).0.concat();
         let speeds: Vec<Expr> = match chart.confined {
             None => velocity.clone(),
-            Some(_) => (1..=basis.len()).map(|k| arena.symbol(Quantity::Speed.at([k]))).collect(),
+            Some(_) => arena.components(Quantity::Speed, basis.len()),
         };
         factorisation.solve(arena, Factorised::Internal, &momenta, &speeds, &mut shared);
         let entries = velocity.into_iter().zip(composed(&basis, &speeds, n * n));

@@ -9,9 +9,9 @@ use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::Load;
 use crate::mechanics::group_point::{GroupPoint, inverse};
 use crate::mechanics::kinetic::Kinetic;
-use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, product, slope};
-use crate::mechanics::shared::frame_of;
+use crate::mechanics::notation::{Letter, Sentence, Summand, commutator, letters, placement, product, slope};
 use crate::mechanics::term::Frame;
+use crate::mechanics::transport;
 
 use super::Masses;
 
@@ -30,12 +30,8 @@ pub(super) struct Law {
 /// What the momentum of a part is.
 type Own = fn() -> Sentence;
 
-fn letter(letter: Letter) -> Sentence {
-    letter.into()
-}
-
 fn inverse_placement() -> Sentence {
-    letter(letters::PLACEMENT).inverse()
+    placement().inverse()
 }
 
 /// `(dT/dO)^T`
@@ -66,9 +62,9 @@ struct Placed {
 
 const BODY: Law = Law {
     own: Some((letters::COMOVING_AFFINE_SPIN, in_the_body)),
-    momentum: || product([letter(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
+    momentum: || product([Sentence::from(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
     rate: Some(|| {
-        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(letter);
+        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(Sentence::from);
         Summand::minus(product([o, x, inverse_placement()]))
     }),
     value: |at| {
@@ -79,9 +75,9 @@ const BODY: Law = Law {
 
 const SPACE: Law = Law {
     own: Some((letters::AFFINE_SPIN, in_space)),
-    momentum: || product([inverse_placement(), letter(letters::AFFINE_SPIN)]),
+    momentum: || product([inverse_placement(), Sentence::from(letters::AFFINE_SPIN)]),
     rate: Some(|| {
-        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(letter);
+        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(Sentence::from);
         Summand::minus(product([inverse_placement(), x, o]))
     }),
     value: |at| {
@@ -94,25 +90,23 @@ const FLAT: Law = Law { own: None, momentum: in_dphi, rate: None, value: |at| [a
 
 const BODY_ON_A_GROUP: Law = Law {
     own: Some((letters::SPIN_IN_THE_BODY, in_the_body)),
-    momentum: || letter(letters::SPIN_IN_THE_BODY),
+    momentum: || Sentence::from(letters::SPIN_IN_THE_BODY),
     rate: Some(|| Summand::plus(commutator(letters::SPIN_IN_THE_BODY, letters::COMOVING_AFFINE_VELOCITY))),
     value: |at| [at.x.clone(), difference(&ring::product(&at.x, &at.o), &ring::product(&at.o, &at.x))],
 };
 
 const SPACE_ON_A_GROUP: Law = Law {
-    own: Some((letters::SPIN_IN_SPACE, || {
-        product([inverse_placement(), in_space(), letter(letters::PLACEMENT)])
-    })),
-    momentum: || letter(letters::SPIN_IN_SPACE),
+    own: Some((letters::SPIN_IN_SPACE, || product([inverse_placement(), in_space(), placement()]))),
+    momentum: || Sentence::from(letters::SPIN_IN_SPACE),
     rate: None,
     value: |at| [ring::product(&ring::product(&at.psi, &at.x), &at.phi), zero(&at.x)],
 };
 
 const FLAT_ON_A_GROUP: Law = Law {
-    own: Some((letters::SPIN_IN_DPHI, || product([in_dphi(), letter(letters::PLACEMENT)]))),
-    momentum: || letter(letters::SPIN_IN_DPHI),
+    own: Some((letters::SPIN_IN_DPHI, || product([in_dphi(), placement()]))),
+    momentum: || Sentence::from(letters::SPIN_IN_DPHI),
     rate: Some(|| {
-        Summand::plus(product([letters::SPIN_IN_DPHI, letters::COMOVING_AFFINE_VELOCITY].map(letter)))
+        Summand::plus(product([letters::SPIN_IN_DPHI, letters::COMOVING_AFFINE_VELOCITY].map(Sentence::from)))
     }),
     value: |at| {
         let momentum = ring::product(&at.x, &at.phi);
@@ -139,9 +133,8 @@ pub fn laws_hold(
     chart: &Chart,
     loads: &[Load],
 ) -> bool {
-    let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), chart.dim);
-    let masses = [masses.body, masses.space]
-        .map(|mass| mass.map_or_else(Polynomial::zero, |mass| Polynomial::normal_form(arena, mass)));
+    let velocity = Matrix::symbols(arena, chart.frame().velocity(), chart.dim);
+    let masses = masses.of_body_and_space(arena);
     let points = GroupPoint::all(arena, chart, chart.confined);
     points.into_iter().all(|mut point| {
         loads.iter().for_each(|load| point.define(arena, &load.shared));
@@ -170,15 +163,10 @@ fn hold_at(
         |m: Square<Residue>| chart.confined.map_or_else(|| m.clone(), |group| group.projected(&m));
     let (phi, velocity) = (of(&chart.phi), of(velocity));
     let psi = inverse(&phi);
-    let phi_dot =
-        if frame_of(chart) == Frame::Body { ring::product(&phi, &velocity) } else { velocity.clone() };
+    let phi_dot = transport::velocity(chart.frame(), &velocity, &phi);
     let (mut momentum, mut rate) = (zero(&phi), zero(&phi));
     for part in parts.iter().filter(|part| !part.internal.is_empty()) {
-        let o = match part.frame {
-            Frame::Body => ring::product(&psi, &phi_dot),
-            Frame::Space => ring::product(&phi_dot, &psi),
-            Frame::Flat => phi_dot.clone(),
-        };
+        let o = transport::velocity(part.frame, &phi_dot, &psi);
         let form: Vec<Vec<Residue>> = part.form().iter().map(|row| row.iter().map(value).collect()).collect();
         let slopes = times(&form, &o.concat());
         let x = table(n, |a, b| slopes[n * b + a]);

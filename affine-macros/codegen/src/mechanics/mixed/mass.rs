@@ -10,6 +10,7 @@ use crate::mechanics::direction::{BasisVector, entries};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::term::Frame;
+use crate::mechanics::transport;
 use crate::symbol::Quantity;
 
 use super::placed::{Placed, matrix};
@@ -69,8 +70,7 @@ fn forms(part: &Kinetic, frame: Frame) -> Vec<Square<Polynomial>> {
     if frame != Frame::Flat || part.frame == frame {
         return vec![part.form()];
     }
-    let term =
-        |energy: &(usize, Polynomial)| Kinetic { internal: vec![energy.clone()], ..part.clone() }.form();
+    let term = |(place, energy): &(usize, Polynomial)| part.only(*place, energy).form();
     let (by_rows, others): (Vec<_>, Vec<_>) = part
         .internal
         .iter()
@@ -100,7 +100,7 @@ impl Placed {
             }
             (Frame::Space, _) if same_blocks(form, n) => {
                 let inertia = self.turned_inertia(arena, form);
-                let unit = table(n, |a, b| Polynomial::constant(Rational::from(i64::from(a == b))));
+                let unit = ring::scalar(n, &Polynomial::constant(Rational::ONE));
                 // On phi_dot no G comes in; where G is a multiple of 1, the inertia contains it.
                 let is_plain = frame == Frame::Flat || self.inverse_square.is_some();
                 by_rows(&inertia, if is_plain { &unit } else { &self.green }, basis)
@@ -133,13 +133,11 @@ impl Placed {
         frame: Frame,
         (k, e): (usize, &Square<Polynomial>),
     ) -> Square<Polynomial> {
+        let phi_dot = transport::velocity(frame, e, &self.phi);
+        let value = transport::velocity(own, &phi_dot, &self.inverse);
         match (own, frame) {
-            (Frame::Flat, _) => product(&self.phi, e),
-            (_, Frame::Flat) => product(e, &self.inverse),
-            _ => {
-                let value = product(&product(&self.phi, e), &self.inverse);
-                matrix(arena, &mut self.shared, Quantity::TurnedVelocity.at([k + 1]), &value)
-            }
+            (Frame::Flat, _) | (_, Frame::Flat) => value,
+            _ => matrix(arena, &mut self.shared, Quantity::TurnedVelocity.at([k + 1]), &value),
         }
     }
 
@@ -152,8 +150,7 @@ impl Placed {
         j: usize,
     ) -> Polynomial {
         let n = h.len();
-        let scalar = table(n, |c, d| if c == d { h[0][0].clone() } else { Polynomial::zero() });
-        if *h == scalar && !h[0][0].is_zero() {
+        if *h == ring::scalar(n, &h[0][0]) && !h[0][0].is_zero() {
             return h[0][0].mul(&self.cauchy(arena, i, j));
         }
         pairs(n).map(|(c, d)| h[c][d].mul(&self.inverse[c][i].mul(&self.inverse[d][j]))).sum()
@@ -178,7 +175,7 @@ impl Placed {
             None => product(&product(&self.inverse, &j), &transpose(&self.inverse)),
             Some(factor) => {
                 let turned = product(&product(&transpose(&self.phi), &j), &self.phi);
-                table(n, |a, b| turned[a][b].mul(factor))
+                ring::multiple(&turned, factor)
             }
         };
         // One name for both triangles.

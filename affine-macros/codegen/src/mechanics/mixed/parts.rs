@@ -1,13 +1,13 @@
 //! The energies of a sum as parts in the velocities of a chart.
 
-use crate::algebra::ring::{Square, pairs, product};
+use crate::algebra::ring::{Square, pairs};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::kinetics::{Lagrangian, Part};
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
 use crate::mechanics::term::Frame;
+use crate::mechanics::transport;
 use crate::symbol::{Aspect, Quantity};
 
 use super::Mixed;
@@ -24,7 +24,7 @@ impl Mixed {
         through_green: bool,
     ) -> Lagrangian {
         let n = self.dim;
-        let velocity = Matrix::symbols(arena, frame_of(chart).velocity(), n);
+        let velocity = Matrix::symbols(arena, chart.frame().velocity(), n);
         let conjugate = pairs(n);
         let conjugate = conjugate.map(|(a, b)| (Coordinate::M(a, b), velocity.0[b][a])).collect();
         let part = |energy: &Kinetic| internal(arena, chart, &velocity, energy, through_green);
@@ -49,27 +49,19 @@ fn internal(
         slopes: Vec::new(),
         momenta: shares(arena, share, &chart.m.0.concat()),
     };
-    if energy.frame == frame_of(chart) {
+    if energy.frame == chart.frame() {
         return own;
     }
     let (phi, psi, o) =
         (chart.placement(), Matrix::symbols(arena, Quantity::InversePlacement, n).atoms(), velocity.atoms());
     let form = energy.form();
-    let stands_in_the_body = (energy.frame, frame_of(chart)) == (Frame::Flat, Frame::Body);
+    let stands_in_the_body = (energy.frame, chart.frame()) == (Frame::Flat, Frame::Body);
     if through_green && stands_in_the_body && same_blocks(&form, n) {
         let green = green(arena, n);
         return Part { velocities: velocity.0.concat(), energy: by_rows(&form, &o, &green), ..own };
     }
-    let phi_dot = match frame_of(chart) {
-        Frame::Body => product(&phi, &o),
-        Frame::Space => product(&o, &phi),
-        Frame::Flat => o,
-    };
-    let definitions = match energy.frame {
-        Frame::Body => product(&psi, &phi_dot),
-        Frame::Space => product(&phi_dot, &psi),
-        Frame::Flat => phi_dot,
-    };
+    let phi_dot = transport::velocity(chart.frame(), &o, &phi);
+    let definitions = transport::velocity(energy.frame, &phi_dot, &psi);
     // The momentum conjugate to O_ab is X_ba.
     let slopes = Matrix::symbols(arena, energy.frame.momentum(), n).transpose().0.concat();
     Part { definitions: Some(definitions.concat()), slopes: shares(arena, share, &slopes), ..own }

@@ -1,11 +1,12 @@
 //! What is known of a placement, of all of GL(n) or of a group that the motion is confined to.
 
-use crate::algebra::ring::{Square, adjugate, table, transpose, upper};
+use crate::algebra::ring::{Square, adjugate, scalar, table, transpose, upper};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::constraint::Constraint;
 use crate::mechanics::kinetics::named;
-use crate::mechanics::metric::{Definitions, inverse_placement};
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::potential::Base;
+use crate::mechanics::shared::inverse_placement;
 use crate::mechanics::weight::Weight;
 use crate::symbol::{Quantity, Symbol};
 
@@ -25,18 +26,16 @@ pub(super) struct Placed {
 impl Placed {
     pub(super) fn new(arena: &mut Arena, n: usize, group: Option<Constraint>) -> Self {
         let phi = Matrix::symbols(arena, Quantity::Placement, n).atoms();
-        let unit =
-            |value: &Polynomial| table(n, |a, b| if a == b { value.clone() } else { Polynomial::zero() });
         let one = Polynomial::constant(Rational::ONE);
         match group {
             None => {
-                let (inverse, shared) = inverse_placement(arena, n);
+                let (inverse, shared) = inverse_placement(arena, &phi);
                 let green = green(arena, n);
-                Self { inverse: inverse.atoms(), green, inverse_square: None, shared, phi }
+                Self { inverse, green, inverse_square: None, shared, phi }
             }
             Some(Constraint::Rigid) => Self {
                 inverse: transpose(&phi),
-                green: unit(&one),
+                green: scalar(n, &one),
                 inverse_square: Some(one),
                 shared: Vec::new(),
                 phi,
@@ -47,7 +46,7 @@ impl Placed {
                 let mut shared = definitions;
                 let inverse = table(n, |a, i| phi[i][a].mul(&inverse_square));
                 let inverse = matrix(arena, &mut shared, Quantity::InversePlacement, &inverse);
-                Self { inverse, green: unit(&square), inverse_square: Some(inverse_square), shared, phi }
+                Self { inverse, green: scalar(n, &square), inverse_square: Some(inverse_square), shared, phi }
             }
             Some(Constraint::Isochoric) => {
                 let mut shared = Vec::new();

@@ -2,9 +2,8 @@
 
 use super::latex::{bracketed, latex};
 use super::names::Notation;
-use super::sentence::{Exponent, Sentence, Summand, is_sum};
+use super::sentence::{Exponent, Sentence, is_sum, summed};
 use crate::algebra::Arena;
-use crate::algebra::text::sign;
 
 impl Notation<'_> {
     /// A sentence in LaTeX.
@@ -27,7 +26,7 @@ impl Notation<'_> {
             Sentence::Entry(of, indices) => {
                 format!("{}_{{{}}}", self.indexed(arena, of), indices_latex(indices))
             }
-            Sentence::Sum(summands) => self.sum_latex(arena, summands),
+            Sentence::Sum(summands) => summed(summands, |value| self.among(arena, value, value.is_sum())),
             Sentence::Product(factors) => self.product_latex(arena, factors),
             Sentence::Multiple(number, of) => {
                 let sum = is_sum(arena, *number);
@@ -87,18 +86,6 @@ impl Notation<'_> {
             product += &self.among(arena, factor, factor.is_sum());
         }
         product
-    }
-
-    fn sum_latex(&self, arena: &Arena, summands: &[Summand]) -> String {
-        if summands.is_empty() {
-            return "0".to_owned();
-        }
-        let mut sum = String::new();
-        for Summand { negative, value } in summands {
-            sum.push_str(sign(*negative, sum.is_empty()));
-            sum.push_str(&self.among(arena, value, value.is_sum()));
-        }
-        sum
     }
 }
 

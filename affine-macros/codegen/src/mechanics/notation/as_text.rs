@@ -1,9 +1,8 @@
 //! Sentences as text.
 
 use super::names::Notation;
-use super::sentence::{Exponent, Sentence, Summand, is_sum};
+use super::sentence::{Exponent, Sentence, is_sum, summed};
 use crate::algebra::Arena;
-use crate::algebra::text::sign;
 
 impl Notation<'_> {
     /// A sentence as text.
@@ -25,7 +24,7 @@ impl Notation<'_> {
             }
             Sentence::Diagonal(entries) => format!("diag({})", list(entries)),
             Sentence::Entry(of, indices) => format!("{}[{}]", text(of), indices_text(indices)),
-            Sentence::Sum(summands) => self.sum_text(arena, summands),
+            Sentence::Sum(summands) => summed(summands, |value| bracketed(value.is_sum(), text(value))),
             Sentence::Product(factors) => {
                 let factors = factors.iter().map(|factor| bracketed(factor.is_sum(), text(factor)));
                 factors.collect::<Vec<_>>().join(" ")
@@ -68,18 +67,6 @@ impl Notation<'_> {
             Sentence::Trace(of) if !of.is_several() => format!("tr {}", self.text(arena, of)),
             _ => self.text(arena, of),
         }
-    }
-
-    fn sum_text(&self, arena: &Arena, summands: &[Summand]) -> String {
-        if summands.is_empty() {
-            return "0".to_owned();
-        }
-        let mut sum = String::new();
-        for Summand { negative, value } in summands {
-            sum.push_str(sign(*negative, sum.is_empty()));
-            sum.push_str(&bracketed(value.is_sum(), self.text(arena, value)));
-        }
-        sum
     }
 }
 

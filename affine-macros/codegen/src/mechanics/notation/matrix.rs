@@ -4,7 +4,8 @@ use super::field::{self, field_of};
 use super::matrix_name::MatrixName;
 use super::names::{Named, Notation};
 use super::sentence::Sentence;
-use crate::algebra::{Arena, Expr, Polynomial};
+use crate::algebra::ring::pairs;
+use crate::algebra::{Arena, Expr, Matrix, Polynomial};
 use crate::mechanics::forces::Forces;
 use crate::mechanics::kinetic::Kinetic;
 use crate::mechanics::metrics::{Rebased, Source};
@@ -114,20 +115,17 @@ impl Notation<'_> {
             None => None,
         };
         let letter = if term.kind.is_tensor() { "K" } else { "J" };
-        let name = match (form, frame) {
-            (Form::Energy, None) => MatrixName::new(letter, letter, true),
-            (Form::Energy, Some(frame)) => MatrixName::new(
-                format!("{letter}_{frame}"),
-                format!("{letter}_{{\\mathrm{{{frame}}}}}"),
+        let friction = (form == Form::Friction).then_some("R");
+        let upright = frame.map(|frame| format!("\\mathrm{{{frame}}}"));
+        let text: Vec<&str> = friction.into_iter().chain(frame).collect();
+        let latex: Vec<&str> = friction.into_iter().chain(upright.as_deref()).collect();
+        let name = match text.is_empty() {
+            true => MatrixName::new(letter, letter, true),
+            false => MatrixName::new(
+                format!("{letter}_{}", text.join("_")),
+                format!("{letter}_{{{}}}", latex.join(",")),
                 false,
             ),
-            (Form::Friction, None) => {
-                MatrixName::new(format!("{letter}_R"), format!("{letter}_{{R}}"), false)
-            }
-            (Form::Friction, Some(frame)) => {
-                let latex = format!("{letter}_{{R,\\mathrm{{{frame}}}}}");
-                MatrixName::new(format!("{letter}_R_{frame}"), latex, false)
-            }
         };
         let literal = self.literal(arena, &given);
         let value = if carried.is_some() { Sentence::InGivenBases(Box::new(literal)) } else { literal };
@@ -141,11 +139,7 @@ impl Notation<'_> {
             return Sentence::Matrix(field::matrix(name));
         }
         let zero = |e: &Expr| arena.as_constant(*e).is_some_and(|value| value.is_zero());
-        let is_diagonal = rows
-            .iter()
-            .enumerate()
-            .all(|(i, row)| row.iter().enumerate().all(|(j, entry)| i == j || zero(entry)));
-        if is_diagonal {
+        if pairs(rows.len()).all(|(i, j)| i == j || zero(&rows[i][j])) {
             let diagonal = rows.iter().enumerate().map(|(i, row)| self.scalar(arena, row[i]));
             return Sentence::Diagonal(diagonal.collect());
         }
@@ -160,11 +154,7 @@ impl Notation<'_> {
         block: &[Vec<Polynomial>],
     ) -> Option<(&Named, Vec<usize>)> {
         self.matrices.iter().find_map(|named| {
-            let matrix: Vec<Vec<Polynomial>> = named
-                .rows
-                .iter()
-                .map(|row| row.iter().map(|e| Polynomial::normal_form(arena, *e)).collect())
-                .collect();
+            let matrix = Matrix(named.rows.clone()).normal_form(arena);
             Some((named, rows_of(&matrix, block)?))
         })
     }

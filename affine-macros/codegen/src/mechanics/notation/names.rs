@@ -6,6 +6,7 @@ use super::field;
 use super::matrix_name::MatrixName;
 use super::sentence::Sentence;
 use super::symbols;
+use crate::algebra::substitute::listed;
 use crate::algebra::text::Written;
 use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::custom::{By, Custom, On, Role};
@@ -75,9 +76,8 @@ impl Notation<'_> {
                 values.push((symbol, arena.power(base, exponent)));
             }
         }
-        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value);
         // Powers of symbols are not zero.
-        arena.replaced(expr, &value)
+        arena.replaced(expr, &listed(&values))
     }
 
     /// The symbol that this is a power of in formulas, and the exponent.

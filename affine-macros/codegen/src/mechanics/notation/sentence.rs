@@ -1,9 +1,11 @@
 //! Formulas of matrices as trees. Two printers write a tree, as text and in LaTeX.
 
 use super::letter::Letter;
+use super::letters;
 use super::matrix_name::MatrixName;
 use crate::algebra::arena::Node;
-use crate::algebra::{Arena, Expr};
+use crate::algebra::text::sign;
+use crate::algebra::{Arena, Expr, Rational};
 
 /// A formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -100,6 +102,11 @@ pub(in crate::mechanics) fn product<const N: usize>(factors: [Sentence; N]) -> S
     Sentence::Product(factors.into())
 }
 
+/// `phi`.
+pub(in crate::mechanics) fn placement() -> Sentence {
+    letters::PLACEMENT.into()
+}
+
 /// `[a, b]`.
 pub(in crate::mechanics) fn commutator(a: impl Into<Sentence>, b: impl Into<Sentence>) -> Sentence {
     Sentence::Commutator(Box::new([a.into(), b.into()]))
@@ -118,6 +125,11 @@ pub(in crate::mechanics) fn rate(of: impl Into<Sentence>) -> Sentence {
 /// The trace.
 pub(in crate::mechanics) fn trace(of: impl Into<Sentence>) -> Sentence {
     Sentence::Trace(Box::new(of.into()))
+}
+
+/// Half of it.
+pub(in crate::mechanics) fn half(arena: &mut Arena, of: Sentence) -> Sentence {
+    Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }
 
 impl Sentence {
@@ -194,6 +206,19 @@ impl Summand {
     pub(in crate::mechanics) fn minus(value: impl Into<Sentence>) -> Self {
         Self { negative: true, value: value.into() }
     }
+}
+
+/// A sum whose summands are `written` so.
+pub(super) fn summed(summands: &[Summand], written: impl Fn(&Sentence) -> String) -> String {
+    if summands.is_empty() {
+        return "0".to_owned();
+    }
+    let mut sum = String::new();
+    for Summand { negative, value } in summands {
+        sum.push_str(sign(*negative, sum.is_empty()));
+        sum.push_str(&written(value));
+    }
+    sum
 }
 
 /// Does a coefficient take brackets among factors?

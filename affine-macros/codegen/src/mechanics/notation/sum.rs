@@ -10,6 +10,13 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 pub(in crate::mechanics) struct Sum(Vec<Summand>);
 
 impl Sum {
+    /// The sum of these.
+    pub(in crate::mechanics) fn new(summands: impl IntoIterator<Item = Summand>) -> Self {
+        let mut sum = Self::default();
+        sum.extend(summands);
+        sum
+    }
+
     /// Adds `coefficient * body`, with the sign in front.
     pub(in crate::mechanics) fn add(
         &mut self,

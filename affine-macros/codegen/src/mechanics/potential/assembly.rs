@@ -1,6 +1,7 @@
 //! The forces on the affine momentum, put together from the slopes of a potential.
 
 use crate::algebra::ring::{Square, add_multiple, add_scalar, pairs, product, sum, transpose};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Polynomial, Rational};
 use crate::symbol::Quantity;
 
@@ -14,7 +15,7 @@ use super::writing::Writing;
 type Slopes<'a> = &'a [(Base, Polynomial)];
 
 fn of(slopes: Slopes, wanted: Base) -> Polynomial {
-    slopes.iter().find(|(base, _)| *base == wanted).map_or_else(Polynomial::zero, |(_, slope)| slope.clone())
+    listed(slopes)(wanted).unwrap_or_else(Polynomial::zero)
 }
 
 impl Draft<'_> {

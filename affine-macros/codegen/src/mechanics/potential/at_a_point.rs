@@ -3,7 +3,7 @@
 
 use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
-use crate::algebra::ring::{dot, upper};
+use crate::algebra::ring::{dot, trace, upper};
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
@@ -119,7 +119,7 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Definitions, [Polynomial;
         shared.push((strain.0[a][b], value));
     }
     let strain = strain.atoms();
-    let trace: Polynomial = (0..n).map(|a| &strain[a][a]).sum();
+    let trace = trace(&strain);
     let of_square = dot(strain.iter().flatten().map(|entry| (entry, entry)));
     let of_square = of_square.add(&trace.scaled(&Rational::from(2)));
     (shared, [trace, of_square])

@@ -4,6 +4,7 @@ use crate::algebra::evaluate::{Field, evaluate};
 use crate::algebra::fault::never_missing;
 use crate::algebra::residue::Residue;
 use crate::algebra::ring::{Ring, Square, above_diagonal, outer, product, table, times, transpose};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
 use crate::mechanics::conserved::{Candidate, Momenta};
@@ -58,10 +59,7 @@ impl Evidence {
             });
             self.group.map_or_else(|| derivative.clone(), |group| group.projected(&derivative))
         };
-        let position = |i: usize| {
-            let found = slopes.iter().find(|(base, _)| *base == Base::Position(i));
-            found.map_or(Residue::ZERO, |(_, slope)| *slope)
-        };
+        let position = |i: usize| listed(&slopes)(Base::Position(i)).unwrap_or(Residue::ZERO);
         let centre: Vec<Residue> = (0..n).map(position).collect();
         let x: Vec<Residue> = (1..=n).map(|i| point.value(&Quantity::Position.at([i]))).collect();
         let space = along(Frame::Space);

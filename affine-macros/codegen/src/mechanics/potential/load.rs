@@ -1,12 +1,12 @@
 //! The forces of a potential in every chart.
 
+use crate::algebra::polynomial::add_to;
 use crate::algebra::rational::exponent;
 use crate::algebra::ring::{Square, outer, pairs, sum, table, times, transpose};
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Linear, Momentum};
 use crate::mechanics::equations::Load;
-use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
+use crate::mechanics::metric::{Definitions, share};
 use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::Potential;
@@ -38,7 +38,7 @@ impl Potential {
 
     /// The same with its slopes in a given way of writing.
     pub(super) fn load_in(&self, arena: &mut Arena, chart: &Chart, writing: Writing) -> Load {
-        let (along, means) = (frame_of(chart), Means::new(arena, chart, writing));
+        let (along, means) = (chart.frame(), Means::new(arena, chart, writing));
         let mut draft = Draft { arena, chart, along, means, load: Load::default(), pulled_back: None };
         if self.has_single_stretches() {
             let (kernel, shared) = principal::computed(draft.arena, chart, writing.counts());
@@ -52,7 +52,7 @@ impl Potential {
         let mut forces = draft.forces(&slopes);
         let centre = draft.force_on_centre(&slopes);
         if chart.momentum == Momentum::Total {
-            let x: Vec<Polynomial> = chart.x.iter().copied().map(Polynomial::atom).collect();
+            let x = Polynomial::vector(&chart.x);
             forces = sum(&forces, &outer(&x, &centre));
         }
         if let Some(group) = chart.confined {
@@ -122,11 +122,7 @@ fn on_axes(
         for k in 0..n {
             let stretch = principal::stretch(arena, k);
             let slope = slope.mul(&Polynomial::monomial(vec![stretch; base.degree()]));
-            let axis = Base::LogStretch(k);
-            match rest.iter_mut().find(|(base, _)| *base == axis) {
-                Some((_, own)) => own.add_scaled(&slope, &Rational::ONE),
-                None => rest.push((axis, slope)),
-            }
+            add_to(&mut rest, Base::LogStretch(k), &slope);
         }
     }
     rest
@@ -135,11 +131,7 @@ fn on_axes(
 impl Draft<'_> {
     /// Shares quantities that are not shared yet.
     pub(super) fn share(&mut self, definitions: Definitions) {
-        for (symbol, definition) in definitions {
-            if self.load.shared.iter().all(|(known, _)| *known != symbol) {
-                self.load.shared.push((symbol, definition));
-            }
-        }
+        share(&mut self.load.shared, definitions);
     }
 
     /// A coefficient of a force: named where it moves, as it stands where it is of parameters alone.

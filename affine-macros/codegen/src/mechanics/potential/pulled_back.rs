@@ -47,17 +47,17 @@ impl PulledBack {
 
     /// The polynomial through these quantities instead of the entries of `Ct`.
     pub(super) fn through(&self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
-        let x = atoms(&self.x);
+        let x = Polynomial::vector(&self.x);
         let rows = times(&symbols(arena, x.len(), Base::Finger, false), &x);
         // The rows stand in the square.
         let mut names = vec![(Polynomial::atom(self.square), dot(x.iter().zip(&rows)))];
-        names.extend(atoms(&self.pushed).into_iter().zip(rows));
+        names.extend(Polynomial::vector(&self.pushed).into_iter().zip(rows));
         form.by_names(&names)
     }
 
     /// What the quantities stand for.
     pub(super) fn definitions(&self, chart: &Chart) -> Definitions {
-        let (phi, x, y) = (chart.placement(), atoms(&self.x), atoms(&self.y));
+        let (phi, x, y) = (chart.placement(), Polynomial::vector(&self.x), Polynomial::vector(&self.y));
         let mut list: Definitions = self.y.iter().copied().zip(times(&transpose(&phi), &x)).collect();
         list.extend(self.pushed.iter().copied().zip(times(&phi, &y)));
         list.push((self.square, dot(y.iter().zip(&y))));
@@ -73,8 +73,4 @@ impl PulledBack {
             Frame::Flat => [&self.y, &self.x],
         }
     }
-}
-
-fn atoms(symbols: &[Expr]) -> Vec<Polynomial> {
-    symbols.iter().copied().map(Polynomial::atom).collect()
 }

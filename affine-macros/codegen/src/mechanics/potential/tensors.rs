@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::algebra::ring::{Ring, Square, above_diagonal, adjugate, dot, pairs, product, table, upper};
+use crate::algebra::ring::{
+    Ring, Square, above_diagonal, adjugate, dot, product, table, trace, trace_of_product, upper,
+};
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::Chart;
 use crate::mechanics::metric::Definitions;
-use crate::mechanics::shared::frame_of;
 use crate::symbol::{Frame, Quantity, Symbol};
 
 use super::base::Base;
@@ -44,7 +45,7 @@ pub(super) const TENSORS: [fn(usize, usize) -> Base; 2] = [Base::Green, Base::Fi
 
 /// Which of them a chart reads.
 pub(super) fn own(chart: &Chart) -> usize {
-    usize::from(frame_of(chart) == Frame::Space)
+    usize::from(chart.frame() == Frame::Space)
 }
 
 /// The entries of a tensor as symbols: those of the placement, or those of its `unit` part `Psi`.
@@ -100,13 +101,7 @@ pub(super) fn definitions(
 
 /// `tr G`, `tr G^2` and `tr G^3` of a symmetric matrix, with its square.
 fn traces<R: Ring>(tensor: &Square<R>, square: &Square<R>) -> [R; 3] {
-    let one = R::number(&Rational::ONE);
-    let places = || pairs(tensor.len());
-    [
-        dot(tensor.iter().enumerate().map(|(a, row)| (&row[a], &one))),
-        dot(places().map(|(a, b)| (&tensor[a][b], &tensor[a][b]))),
-        dot(places().map(|(a, b)| (&tensor[a][b], &square[a][b]))),
-    ]
+    [trace(tensor), trace_of_product(tensor, tensor), trace_of_product(tensor, square)]
 }
 
 /// The derivative of a base function, divided by the number that its slope carries: of the body along `phi -> phi (1 + e E_AB)`,

@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use crate::algebra::arena::Node;
+use crate::algebra::polynomial::add_to;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 
 /// A quantity as its value at `phi = 1` and its difference from that.
@@ -77,11 +78,7 @@ impl Undeformed {
         for (monomial, c) in form.terms() {
             let (small, rest): (Vec<Expr>, Vec<Expr>) =
                 monomial.iter().partition(|atom| self.atom(arena, **atom).vanishes());
-            let rest = Polynomial::term(rest, c.clone());
-            match groups.iter_mut().find(|(known, _)| *known == small) {
-                Some((_, sum)) => sum.add_scaled(&rest, &Rational::ONE),
-                None => groups.push((small, rest)),
-            }
+            add_to(&mut groups, small, &Polynomial::term(rest, c.clone()));
         }
         let mut result = Polynomial::zero();
         for (small, sum) in groups {

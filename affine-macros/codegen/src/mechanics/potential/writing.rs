@@ -144,8 +144,7 @@ impl Potential {
     fn is_of_minors(&self, arena: &mut Arena) -> bool {
         let mut sums = Sums::default();
         let mut slope = |wanted: Base| {
-            let form = self.slopes.iter().find(|(base, _)| *base == wanted).map(|(_, slope)| *slope)?;
-            let form = through_dilatation(arena, form);
+            let form = through_dilatation(arena, listed(&self.slopes)(wanted)?);
             let form = sums.named(arena, form);
             Some(Polynomial::normal_form(arena, form).scaled(&wanted.weight(self.dim)))
         };

@@ -47,7 +47,7 @@ impl Conserved {
 
     /// Components that are constants, while others are state.
     pub(super) fn fixed(&self, arena: &Arena) -> Vec<Symbol> {
-        self.components.iter().map(|component| arena.symbol_of(*component)).collect()
+        arena.symbols_of(&self.components)
     }
 
     /// What is kept of the affine momentum.

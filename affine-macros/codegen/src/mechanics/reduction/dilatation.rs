@@ -9,8 +9,11 @@
 //!
 //! `O` itself is the state, split into symmetric and skew parts, so that no coefficient is left in `Psi'`.
 
+use std::cmp::Ordering;
+
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
 use crate::algebra::ring::{pairs, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
@@ -123,7 +126,7 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     let psi = Matrix::symbols(arena, Quantity::IsochoricPlacement, n);
     let velocity = velocity(arena, n);
     let forces = forces(arena, chart, &psi, load);
-    let mut system = System { shared: forces.shared, work: forces.work, ..System::default() };
+    let mut system = System { shared: forces.shared.clone(), work: forces.work.clone(), ..System::default() };
     let o = Matrix::symbols(arena, Quantity::IsochoricVelocity, n);
     for (a, b) in pairs(n) {
         system.shared.push((o.0[a][b], velocity[a][b].clone()));
@@ -136,20 +139,17 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
         let rate = (0..n).map(|k| Polynomial::monomial(product(k))).sum();
         system.rates.push((Coordinate::Phi(i, a), psi.0[i][a], rate));
     }
-    let force = |a: usize, b: usize| {
-        let found = forces.forces.iter().find(|(z, _)| *z == Coordinate::M(a, b));
-        found.map_or_else(Polynomial::zero, |(_, force)| force.clone())
-    };
+    let force = |a: usize, b: usize| forces.force(Coordinate::M(a, b));
     let nth = Rational::one_over(n);
     let half = Rational::HALF;
     let mean: Polynomial = (0..n).map(|a| force(a, a).scaled(&nth)).sum();
     for (a, b) in pairs(n) {
-        let mut rate = match (a < b, a == b) {
-            (true, _) => force(a, b).add(&force(b, a)).scaled(&half),
-            (_, true) => force(a, a).sub(&mean),
-            _ => force(b, a).sub(&force(a, b)).scaled(&half),
+        let rate = match a.cmp(&b) {
+            Ordering::Less => force(a, b).add(&force(b, a)).scaled(&half),
+            Ordering::Equal => force(a, a).sub(&mean),
+            Ordering::Greater => force(b, a).sub(&force(a, b)).scaled(&half),
         };
-        rate = rate.mul(&casimirs.casimir2);
+        let rate = rate.mul(&casimirs.casimir2);
         if (a, b) != (n - 1, n - 1) {
             system.rates.push((Coordinate::M(a, b), arena.symbol(part(a, b)), rate));
         }
@@ -158,9 +158,8 @@ fn shear_system(arena: &mut Arena, chart: &Chart, casimirs: &Isotropic, load: &L
     let depends = |p: &Polynomial| {
         p.any_symbol(arena, &mut |s| arena.quantity(s).is_some_and(|quantity| UNDEFORMED.contains(&quantity)))
     };
-    let free =
-        !system.shared.iter().any(|(_, p)| depends(p)) && !system.rates.iter().any(|(.., p)| depends(p));
-    free.then_some(system)
+    let depends = system.polynomials().any(depends);
+    (!depends).then_some(system)
 }
 
 /// What is a constant at `det phi = 1`.
@@ -181,36 +180,27 @@ fn forces(arena: &mut Arena, chart: &Chart, psi: &Matrix, load: &Load) -> Load {
     });
     let replaced: Vec<(Expr, Expr)> =
         pairs(chart.dim).map(|(i, a)| (chart.phi.0[i][a], psi.0[i][a])).chain(value_at_rest).collect();
-    let value = |atom: Expr| replaced.iter().find(|(s, _)| *s == atom).map(|(_, value)| *value);
-    let defined = |symbol: Expr| value_at_rest.iter().any(|(s, _)| *s == symbol);
+    let is_undefined = |symbol: Expr| listed(&value_at_rest)(symbol).is_none();
     let mut at_rest = |form: &Polynomial| {
         let form = form.expression(arena);
         // Dilatations of a placement have no part in what vanishes.
-        let form = arena.replaced(form, &value);
+        let form = arena.replaced(form, &listed(&replaced));
         Polynomial::normal_form(arena, form)
     };
-    let shared = load.shared.iter().filter(|(symbol, _)| !defined(*symbol));
-    Load {
-        shared: shared.map(|(symbol, form)| (*symbol, at_rest(form))).collect(),
-        forces: load.forces.iter().map(|(z, form)| (*z, at_rest(form))).collect(),
-        work: load.work.as_ref().map(|(symbol, power)| (*symbol, at_rest(power))),
-        ..Load::default()
-    }
+    let shared = load.shared.iter().filter(|(symbol, _)| is_undefined(*symbol)).cloned().collect();
+    let load = Load { shared, kernels: Vec::new(), ..load.clone() };
+    load.mapped(&mut at_rest)
 }
 
 /// `O_ab` in its parts: `s_ab + w_ab`, `s_ab - w_ab`, `s_aa`, and the last diagonal entry from the trace.
 fn velocity(arena: &mut Arena, n: usize) -> Vec<Vec<Polynomial>> {
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (a, b) in pairs(n) {
-        let symbol = |arena: &mut Arena, a, b| Polynomial::atom(arena.symbol(part(a, b)));
-        rows[a][b] = match (a < b, a == b) {
-            (true, _) => symbol(arena, a, b).add(&symbol(arena, b, a)),
-            (_, true) if a + 1 < n => symbol(arena, a, a),
-            (_, true) => (0..a).map(|c| symbol(arena, c, c).neg()).sum(),
-            _ => symbol(arena, b, a).sub(&symbol(arena, a, b)),
-        };
-    }
-    rows
+    let mut symbol = |a, b| Polynomial::atom(arena.symbol(part(a, b)));
+    table(n, |a, b| match a.cmp(&b) {
+        Ordering::Less => symbol(a, b).add(&symbol(b, a)),
+        Ordering::Equal if a + 1 < n => symbol(a, a),
+        Ordering::Equal => (0..a).map(|c| symbol(c, c).neg()).sum(),
+        Ordering::Greater => symbol(b, a).sub(&symbol(a, b)),
+    })
 }
 
 /// The symbol of the symmetric part above the diagonal and on it, of the skew part `w_ba`, `b < a`, below.

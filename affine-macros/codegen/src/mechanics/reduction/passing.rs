@@ -1,8 +1,8 @@
 //! The way from a phase point to the state of a reduction, and back: each step adds what it takes out.
 
+use crate::algebra::Arena;
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
 use crate::algebra::ring::table;
-use crate::algebra::{Arena, Expr, Matrix};
 use crate::mechanics::charts::{Linear, Momentum};
 use crate::symbol::{Quantity, Symbol};
 
@@ -112,8 +112,7 @@ impl Reduction {
             return;
         };
         let quantity = linear.quantity();
-        let symbols = |of: &[Expr]| of.iter().map(|s| arena.symbol_of(*s)).collect::<Vec<_>>();
-        let (positions, momenta) = (symbols(&self.chart.x), symbols(&self.chart.p));
+        let [positions, momenta] = [&self.chart.x, &self.chart.p].map(|of| arena.symbols_of(of));
         let position = self.turned(Quantity::Position, Tensor::OfPoint(Quantity::Position));
         let momentum = match linear {
             Linear::Body => Tensor::OfPoint(Quantity::ComovingLinearMomentum),
@@ -142,7 +141,7 @@ impl Reduction {
     /// The affine momentum of the chart.
     fn affine_momentum(&self, arena: &Arena, fixed: &[Symbol], passage: &mut Passage) {
         let quantity = self.chart.momentum.quantity();
-        let entries = symbols(arena, &self.chart.m);
+        let entries: Vec<Vec<Symbol>> = self.chart.m.0.iter().map(|row| arena.symbols_of(row)).collect();
         let turned = self.turned(quantity, Tensor::Variable(Word::Momentum));
         passage.inward.push(Statement::Entries(entries.clone(), turned));
         let back = match self.conserved.affine {
@@ -173,8 +172,4 @@ impl Reduction {
 
 fn entries(of: Quantity, n: usize) -> Vec<Vec<Symbol>> {
     table(n, |i, a| of.at([i + 1, a + 1]))
-}
-
-fn symbols(arena: &Arena, matrix: &Matrix) -> Vec<Vec<Symbol>> {
-    matrix.0.iter().map(|row| row.iter().map(|entry| arena.symbol_of(*entry)).collect()).collect()
 }

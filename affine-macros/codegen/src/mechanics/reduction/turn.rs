@@ -1,9 +1,8 @@
 //! Space turned so that a conserved `p` lies along the first axis, and `I(O)_13 = 0` where `I(O)` is conserved.
 
+use crate::algebra::Expr;
 use crate::algebra::passage::{Constant, Extent, MatrixFunction, Passage, Statement, Tensor, Word};
-use crate::algebra::{Expr, Polynomial};
 use crate::mechanics::charts::{Chart, Linear, Momentum};
-use crate::mechanics::equations::System;
 use crate::symbol::Quantity;
 
 use super::conserved::Conserved;
@@ -23,11 +22,6 @@ impl Turn {
         let of_total = conserved.affine && chart.momentum == Momentum::Total && chart.dim == 3;
         let vanishing = across.chain(of_total.then(|| chart.m.0[0][2])).collect();
         (conserved.linear && chart.linear == Some(Linear::Space)).then_some(Self { vanishing })
-    }
-
-    /// A system without what vanishes.
-    pub(super) fn taken(&self, system: &System) -> System {
-        system.substitute(&|atom| self.vanishing.contains(&atom).then(Polynomial::zero))
     }
 
     /// The rotation is kept.

@@ -1,6 +1,7 @@
 //! Flows in closed form, and which of them a system of equations has.
 
-use crate::algebra::ring::pairs;
+use crate::algebra::ring::{Square, difference, product, table};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate, Momentum};
 use crate::mechanics::equations::System;
@@ -36,7 +37,7 @@ pub enum Flow {
 /// A system with its velocities written out.
 pub(super) fn expanded(mut system: System) -> System {
     let defined = std::mem::take(&mut system.shared);
-    system.substitute(&|atom| value_of(&defined, atom))
+    system.substitute(&listed(&defined))
 }
 
 /// The flow of a system, where it has one of the two forms.
@@ -101,7 +102,7 @@ fn written_out(arena: &Arena, system: &System, polynomial: &Polynomial) -> Polyn
 
 /// `Y` with `phi' = phi Y` or `phi' = Y phi` and `Y' = 0`, and whether it stands on the right. Nothing else moves but
 /// an affine momentum.
-pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polynomial>>, bool)> {
+pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Square<Polynomial>, bool)> {
     let n = chart.dim;
     if system.rates.iter().any(|(z, ..)| !matches!(z, Coordinate::Phi(..) | Coordinate::M(..))) {
         return None;
@@ -123,20 +124,12 @@ pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polyn
         let ((i, a), (j, b)) = (place(k, to), place(k, from));
         placement(i, a).1.derivative(placement(j, b).0)
     };
-    let mut rows = vec![vec![Polynomial::zero(); n]; n];
-    for (r, c) in pairs(n) {
-        // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
-        rows[r][c] = if right { entry(c, r, 0) } else { entry(r, c, 0) };
-    }
-    for (i, a) in pairs(n) {
-        let mut product = Polynomial::zero();
-        for k in 0..n {
-            let ((j, b), y) = if right { ((i, k), &rows[k][a]) } else { ((k, a), &rows[i][k]) };
-            product.add_product(&Polynomial::atom(placement(j, b).0), y, &Rational::ONE);
-        }
-        if product != placement(i, a).1 {
-            return None;
-        }
+    // (phi Y)_kc = phi_kr Y_rc, and (Y phi)_rk = Y_rc phi_ck.
+    let rows = table(n, |r, c| if right { entry(c, r, 0) } else { entry(r, c, 0) });
+    let phi = table(n, |i, a| Polynomial::atom(placement(i, a).0));
+    let moved = if right { product(&phi, &rows) } else { product(&rows, &phi) };
+    if moved != table(n, |i, a| placement(i, a).1) {
+        return None;
     }
     let still = |y: &Polynomial| {
         let rate: Polynomial =
@@ -150,40 +143,22 @@ pub(super) fn generator(chart: &Chart, system: &System) -> Option<(Vec<Vec<Polyn
 pub(super) fn turns_along(
     chart: &Chart,
     system: &System,
-    generator: &[Vec<Polynomial>],
+    generator: &Square<Polynomial>,
     right: bool,
 ) -> bool {
-    let dependent = chart.dependent();
-    chart.independent().into_iter().all(|z| {
+    let (dependent, m) = (chart.dependent(), chart.m.atoms());
+    let [after, before] = [product(&m, generator), product(generator, &m)];
+    let commutator = if right { difference(&after, &before) } else { difference(&before, &after) };
+    chart.independent_momenta().into_iter().all(|z| {
         let Coordinate::M(a, b) = z else { return true };
-        let found = system.rates.iter().find(|(at, ..)| *at == z);
         // A component that keeps still must keep still in the commutator as well.
-        let rate = found.map_or_else(Polynomial::zero, |(.., rate)| rate.clone());
-        commutator(chart, generator, right, a, b).substitute(&|atom| value_of(&dependent, atom)) == rate
+        commutator[a][b].substitute(&listed(&dependent)) == system.rate(z)
     })
 }
 
 /// Increments of the affine momentum under a constraint: of the entries that determine the others, in these.
 pub(super) fn confined(chart: &Chart, mut system: System) -> System {
     let dependent = chart.dependent();
-    system.rates.retain(|(_, symbol, _)| value_of(&dependent, *symbol).is_none());
-    system.substitute(&|atom| value_of(&dependent, atom))
-}
-
-/// The value of a symbol that has one.
-pub(super) fn value_of(values: &[(Expr, Polynomial)], symbol: Expr) -> Option<Polynomial> {
-    values.iter().find(|(s, _)| *s == symbol).map(|(_, value)| value.clone())
-}
-
-fn commutator(chart: &Chart, y: &[Vec<Polynomial>], right: bool, a: usize, b: usize) -> Polynomial {
-    let (plus, minus) = match right {
-        true => (Rational::ONE, Rational::MINUS_ONE),
-        false => (Rational::MINUS_ONE, Rational::ONE),
-    };
-    let mut sum = Polynomial::zero();
-    for k in 0..chart.dim {
-        sum.add_product(&Polynomial::atom(chart.m.0[a][k]), &y[k][b], &plus);
-        sum.add_product(&Polynomial::atom(chart.m.0[k][b]), &y[a][k], &minus);
-    }
-    sum
+    system.rates.retain(|(_, symbol, _)| listed(&dependent)(*symbol).is_none());
+    system.substitute(&listed(&dependent))
 }

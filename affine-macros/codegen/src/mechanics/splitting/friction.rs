@@ -36,10 +36,9 @@ pub(super) fn flow(
             .map(|(.., rate)| momenta.iter().map(|z| rate.derivative(*z).neg()).collect())
             .collect();
         is_linear(&block, &momenta, &matrix).then_some(())?;
-        let faded = |k: usize| Quantity::Faded.at([b + 1, k + 1]);
-        let results: Vec<Expr> = (0..momenta.len()).map(|k| arena.symbol(faded(k))).collect();
+        let results = arena.components(Quantity::Faded.at([b + 1]), momenta.len());
         let time = Polynomial::atom(arena.symbol(Quantity::TimeOfFlow));
-        let values = momenta.iter().map(|z| Polynomial::atom(*z)).collect();
+        let values = Polynomial::vector(&momenta);
         let arguments = vec![Group::Scalar(time), Group::Matrix(matrix), Group::Vector(values)];
         let rise = |((z, symbol, _), rise): (&(Coordinate, Expr, Polynomial), &Expr)| {
             (*z, *symbol, Polynomial::atom(*rise))
@@ -59,8 +58,7 @@ fn energy(h: &Hamiltonian, reduction: &Reduction) -> Option<Polynomial> {
     let (chart, rotation) = (&reduction.chart, &reduction.commuting.rotation);
     let mut energy = h.internal_in(chart, rotation.is_some())?;
     energy.add_scaled(&h.translation_in(chart), &Rational::ONE);
-    let gauge = reduction.gauge();
-    Some(chart.reduced(&energy).substitute(&|atom| gauge.contains(&atom).then(Polynomial::zero)))
+    Some(chart.reduced(&energy).substitute(&reduction.gauge()))
 }
 
 /// `T(z + r) - T(z)` of a quadratic form.
@@ -101,7 +99,7 @@ fn is_linear(block: &Rates, momenta: &[Expr], matrix: &[Vec<Polynomial>]) -> boo
         for (entry, momentum) in row.iter().zip(momenta) {
             rest.add_product(entry, &Polynomial::atom(*momentum), &Rational::ONE);
         }
-        matches!(z, Coordinate::P(_) | Coordinate::M(..))
+        z.is_momentum()
             && rest.is_zero()
             && row.iter().all(|entry| !entry.mentions(|atom| momenta.contains(&atom)))
     })

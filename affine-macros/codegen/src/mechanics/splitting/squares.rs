@@ -12,7 +12,6 @@
 //! in the closed form of [`turns`](super::turns). Squares whose momenta commute make one piece.
 
 use crate::algebra::lagrange::completed;
-use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::mechanics::brackets::poisson;
 use crate::mechanics::charts::{Chart, Coordinate};
@@ -22,7 +21,7 @@ use crate::mechanics::hessian::{Block, blocks};
 use crate::mechanics::reduction::Reduction;
 use crate::symbol::Quantity;
 
-use super::flows::{Flow, value_of};
+use super::flows::Flow;
 use super::summand::Summand;
 use super::turns::{self, Turn};
 
@@ -62,17 +61,14 @@ pub struct Principal {
 impl Squares {
     /// The squares of a quadratic energy of a chart's affine spin; `None` where it is degenerate.
     pub(super) fn of(arena: &mut Arena, chart: &Chart, energy: &Polynomial) -> Option<Self> {
-        let energy = energy.substitute(&|atom| value_of(&chart.dependent(), atom));
-        let momenta: Vec<Coordinate> =
-            chart.independent().into_iter().filter(|z| matches!(z, Coordinate::M(..))).collect();
+        let energy = chart.reduced(energy);
+        let momenta = chart.independent_momenta();
         let symbols: Vec<Expr> = momenta.iter().map(|z| chart.symbol(*z)).collect();
-        let form: Vec<Vec<Polynomial>> =
-            energy.gradient(&symbols).iter().map(|slope| slope.gradient(&symbols)).collect();
+        let form = energy.hessian(&symbols);
         let mut squares = Self::default();
         for block in blocks(&form, &entries(symbols.len())) {
             let of_block = squares.of_block(arena, &block)?;
-            let places = block.basis.iter().filter_map(|vector| vector.entries.first());
-            let places: Vec<usize> = places.map(|(k, _)| *k).collect();
+            let places = block.places();
             let atoms: Vec<Expr> = places.iter().map(|k| symbols[*k]).collect();
             for (k, (weight, row)) in of_block.into_iter().enumerate() {
                 let (mut form, mut on_all) = (Polynomial::zero(), Polynomial::zero());
@@ -114,41 +110,35 @@ impl Squares {
 impl Principal {
     fn symbols(arena: &mut Arena, b: usize, form: Vec<Vec<Polynomial>>) -> Self {
         let size = form.len();
-        let values = (1..=size).map(|k| arena.symbol(Quantity::BlockValue.at([b, k]))).collect();
-        let mut vector =
-            |k: usize| (1..=size).map(|i| arena.symbol(Quantity::BlockAxis.at([b, k, i]))).collect();
-        let vectors = (1..=size).map(&mut vector).collect();
+        let values = arena.components(Quantity::BlockValue.at([b]), size);
+        let vectors = (1..=size).map(|k| arena.components(Quantity::BlockAxis.at([b, k]), size)).collect();
         Self { form, values, vectors }
     }
 
     fn squares(&self) -> Vec<(Polynomial, Vec<Polynomial>)> {
-        let atoms = |list: &Vec<Expr>| list.iter().map(|s| Polynomial::atom(*s)).collect();
-        self.values.iter().map(|s| Polynomial::atom(*s)).zip(self.vectors.iter().map(atoms)).collect()
+        let vectors = self.vectors.iter().map(|vector| Polynomial::vector(vector));
+        Polynomial::vector(&self.values).into_iter().zip(vectors).collect()
     }
 }
 
 /// An entry of the affine spin, under a constraint that of its projection.
 fn on_all_momenta(chart: &Chart, entry: Coordinate) -> Polynomial {
     match (chart.confined, entry) {
-        (Some(group), Coordinate::M(a, b)) => {
-            group.projected(&table(chart.dim, |c, d| Polynomial::atom(chart.m.0[c][d])))[a][b].clone()
-        }
+        (Some(group), Coordinate::M(a, b)) => group.projected(&chart.m.atoms())[a][b].clone(),
         _ => Polynomial::atom(chart.symbol(entry)),
     }
 }
 
 impl Square {
-    fn summand(&self) -> Option<Summand> {
-        let half = Rational::HALF;
-        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&half);
-        Some(Summand { name: self.name.clone(), energy: Some(energy), system: System::default() })
+    fn summand(&self) -> Summand {
+        let energy = self.weight.mul(&self.on_all.mul(&self.on_all)).scaled(&Rational::HALF);
+        Summand { name: self.name.clone(), energy: Some(energy), system: System::default() }
     }
 }
 
 /// The square as text: the `k`-th of a block of momenta where only the fields' values tell which.
 fn name(arena: &mut Arena, form: &Polynomial, k: usize, block: &[Expr]) -> String {
-    let known = |atom: Expr| block.contains(&atom);
-    if form.mentions(|atom| !known(atom)) {
+    if form.mentions(|atom| !block.contains(&atom)) {
         let names: Vec<String> = block.iter().map(|atom| arena.symbol_name(*atom)).collect();
         return format!("square {k} of {}", names.join(", "));
     }
@@ -170,6 +160,5 @@ pub(super) fn piece(
     });
     let turns: Vec<Turn> = turns.collect::<Option<_>>()?;
     let flows = turns::flows(arena, reduction, &turns)?;
-    let summands = group.iter().map(Square::summand).collect::<Option<_>>()?;
-    Some((summands, flows))
+    Some((group.iter().map(Square::summand).collect(), flows))
 }

@@ -11,7 +11,7 @@
 //! What else there is has a series. Shears whose products vanish are one shear.
 
 use crate::algebra::kernel::{Callee, Group};
-use crate::algebra::ring::{self, pairs, table};
+use crate::algebra::ring::{self, multiple, pairs};
 use crate::algebra::{Arena, Expr, Kernel, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Coordinate};
 use crate::mechanics::equations::{Form, System};
@@ -63,17 +63,17 @@ impl Turn {
 
     /// `s E`.
     fn generator(&self) -> Square {
-        times(&self.direction, &Polynomial::atom(self.rate.0))
+        multiple(&self.direction, &Polynomial::atom(self.rate.0))
     }
 
     fn flow(&self, arena: &mut Arena, reduction: &Reduction) -> Option<Flow> {
         let square = ring::product(&self.direction, &self.direction);
-        let trace = trace(&self.direction);
-        if square == times(&self.direction, &trace) {
+        let trace = ring::trace(&self.direction);
+        if square == multiple(&self.direction, &trace) {
             return self.elongated(arena, reduction, &trace);
         }
-        let k = self::trace(&square).scaled(&Rational::HALF);
-        if ring::product(&square, &self.direction) == times(&self.direction, &k) {
+        let k = ring::trace(&square).scaled(&Rational::HALF);
+        if ring::product(&square, &self.direction) == multiple(&self.direction, &k) {
             return self.turned(arena, reduction, (&square, &k));
         }
         let (shared, generator) = (vec![self.rate.clone()], self.generator());
@@ -83,8 +83,8 @@ impl Turn {
     /// `1 + g E`, and `1 + d E` back.
     fn elongated(&self, arena: &mut Arena, reduction: &Reduction, trace: &Polynomial) -> Option<Flow> {
         let [g, d] = arena.symbols([Quantity::Growth, Quantity::FlowDecay]);
-        let (kernel, [growth, decay]) = (self.kernel(arena, Callee::Elongation, trace, [g, d]), [g, d]);
-        let factors = [growth, decay].map(|factor| times(&self.direction, &Polynomial::atom(factor)));
+        let kernel = self.kernel(arena, Callee::Elongation, trace, [g, d]);
+        let factors = [g, d].map(|factor| multiple(&self.direction, &Polynomial::atom(factor)));
         let along_an_axis = self.direction.iter().flatten().filter(|entry| !entry.is_zero()).count() == 1;
         let known = along_an_axis.then(|| trace.as_constant()?.recip()).flatten().map(|reciprocal| {
             // 1 + g tr E and 1 + d tr E are reciprocals. Beside a small trace the sum would lose digits.
@@ -105,8 +105,8 @@ impl Turn {
         let [u, v] = arena.symbols([Quantity::Sine, Quantity::Versine]);
         let kernel = self.kernel(arena, Callee::Turn, k, [u, v]);
         let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| {
-            let odd = times(&self.direction, &Polynomial::atom(u).scaled(&sign));
-            ring::sum(&odd, &times(square, &Polynomial::atom(v)))
+            let odd = multiple(&self.direction, &Polynomial::atom(u).scaled(&sign));
+            ring::sum(&odd, &multiple(square, &Polynomial::atom(v)))
         });
         // u^2 = 2 v + k v^2: both ways undo each other.
         let mut known = k.mul(&Polynomial::monomial([v, v]));
@@ -152,7 +152,7 @@ impl Turn {
 fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<Flow> {
     let generator = turns.iter().map(Turn::generator).reduce(|sum, y| ring::sum(&sum, &y))?;
     let h = Polynomial::atom(arena.symbol(Quantity::TimeOfFlow));
-    let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| times(&generator, &h.scaled(&sign)));
+    let factors = [Rational::ONE, Rational::MINUS_ONE].map(|sign| multiple(&generator, &h.scaled(&sign)));
     let rates = rises(&reduction.chart, &factors, turns.first()?.right);
     let shared = turns.iter().map(|turn| turn.rate.clone()).collect();
     let system = System { shared, rates, ..System::default() };
@@ -161,8 +161,7 @@ fn sheared(arena: &mut Arena, reduction: &Reduction, turns: &[Turn]) -> Option<F
 
 /// The increments of `phi` and `M` by `1 + there` and its inverse `1 + back`.
 fn rises(chart: &Chart, [there, back]: &[Square; 2], right: bool) -> Vec<(Coordinate, Expr, Polynomial)> {
-    let matrix = |entries: &[Vec<Expr>]| table(chart.dim, |a, b| Polynomial::atom(entries[a][b]));
-    let (phi, m) = (matrix(&chart.phi.0), matrix(&chart.m.0));
+    let (phi, m) = (chart.placement(), chart.m.atoms());
     let placed = if right { ring::product(&phi, there) } else { ring::product(there, &phi) };
     let (before, after) = if right { (back, there) } else { (there, back) };
     // (1 + before) M (1 + after) - M
@@ -190,12 +189,4 @@ fn replaced(polynomial: &Polynomial, [one, other]: [Expr; 2], value: &Polynomial
     sum.add_product(&factor, &Polynomial::monomial([one, other]), &Rational::MINUS_ONE);
     sum.add_product(&factor, value, &Rational::ONE);
     sum
-}
-
-fn trace(matrix: &Square) -> Polynomial {
-    (0..matrix.len()).map(|a| &matrix[a][a]).sum()
-}
-
-fn times(matrix: &Square, factor: &Polynomial) -> Square {
-    table(matrix.len(), |a, b| matrix[a][b].mul(factor))
 }

@@ -16,8 +16,7 @@ pub fn formulas(
     potential: Option<&Potential>,
     keeps_volume: bool,
 ) -> (Sentence, Vec<Sentence>) {
-    let mut sum = Sum::default();
-    sum.push(Summand::plus(notation.polynomial(arena, &equations.kinetic)));
+    let mut sum = Sum::new([Summand::plus(notation.polynomial(arena, &equations.kinetic))]);
     if let Some(potential) = potential {
         sum.add_expression(arena, notation, potential.energy);
     }
@@ -32,13 +31,11 @@ pub fn formulas(
         equations.rates.iter().filter(|(z, ..)| is_place(z)).map(|(_, place, _)| *place).collect();
     let mut list = Vec::new();
     for (z, symbol, derived) in equations.rates.iter().filter(|(z, _, rate)| moves(z, rate)) {
-        let mut sum = Sum::default();
-        sum.push(Summand::plus(notation.polynomial(arena, derived)));
+        let mut sum = Sum::new([Summand::plus(notation.polynomial(arena, derived))]);
         if let (Coordinate::P(a), Some(_)) = (z, potential) {
             sum.push(Summand::minus(slope_by(arena, places[*a])));
             if keeps_volume {
-                let mut mean = Sum::default();
-                mean.extend(places.iter().map(|place| Summand::plus(slope_by(arena, *place))));
+                let mean = Sum::new(places.iter().map(|place| Summand::plus(slope_by(arena, *place))));
                 sum.push(Summand::plus(Sentence::Over(Box::new(mean.value()), places.len())));
             }
         }

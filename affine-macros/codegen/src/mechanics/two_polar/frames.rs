@@ -1,7 +1,7 @@
 //! The frames `L` and `R` beside the lattice: `dL/dt = L chi_hat`, `dR/dt = R theta_hat`.
 
 use crate::algebra::ring::above_diagonal;
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::symbol::Quantity;
 
 /// Symbols of the frames: an angle each in the plane, the entries of `L` and `R` in space.
@@ -20,7 +20,7 @@ impl Frames {
         let mut of = |rotation: Quantity, angle: Quantity| -> Vec<Expr> {
             match dim {
                 2 => vec![arena.symbol(angle)],
-                _ => (0..dim * dim).map(|k| arena.symbol(rotation.at([k / dim + 1, k % dim + 1]))).collect(),
+                _ => Matrix::symbols(arena, rotation, dim).0.concat(),
             }
         };
         Self {

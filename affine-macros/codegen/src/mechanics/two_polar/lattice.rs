@@ -59,7 +59,7 @@ impl Lattice {
         };
         let (q, p) = (arena.components(place, h.dim), arena.components(Quantity::LinearMomentum, h.dim));
         let mut skew = |of: Quantity| -> Vec<Expr> {
-            pairs(h.dim).map(|(a, b)| arena.symbol(of.at([a + 1, b + 1]))).collect()
+            above_diagonal(h.dim).map(|(a, b)| arena.symbol(of.at([a + 1, b + 1]))).collect()
         };
         let (m, n) = (skew(Quantity::SumCouplings), skew(Quantity::DifferenceCouplings));
         Self { dim: h.dim, variables, q, p, m, n }
@@ -67,7 +67,7 @@ impl Lattice {
 
     /// `(a, b)` with `a < b`.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        pairs(self.dim)
+        above_diagonal(self.dim)
     }
 
     /// All coordinates, group after group.
@@ -129,8 +129,4 @@ impl Lattice {
         add(d == b, a, c, 1);
         sum
     }
-}
-
-fn pairs(dim: usize) -> impl Iterator<Item = (usize, usize)> {
-    above_diagonal(dim)
 }

@@ -15,7 +15,9 @@
 //! `|Vort|^2` or `|S|^2` in the energy commutes with everything and turns one frame: it is no piece, but a rotation
 //! from outside that is known for all times.
 
-use crate::algebra::{Arena, Expr, Polynomial, Rational};
+use crate::algebra::polynomial::add_to;
+use crate::algebra::substitute::listed;
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::mechanics::hamiltonian::Hamiltonian;
 use crate::mechanics::potential::OnAxes;
 use crate::symbol::Symbol;
@@ -106,11 +108,7 @@ fn parts(arena: &mut Arena, lattice: &Lattice, h: &Hamiltonian) -> Vec<(String, 
     for (monomial, c) in energy.terms() {
         let coupling = monomial.iter().find(|atom| lattice.m.contains(atom) || lattice.n.contains(atom));
         let coupling = coupling.map(|atom| arena.symbol_of(*atom));
-        let place = parts.iter().position(|(known, _)| *known == coupling).unwrap_or_else(|| {
-            parts.push((coupling, Polynomial::zero()));
-            parts.len() - 1
-        });
-        parts[place].1.add_term(monomial.clone(), c);
+        add_to(&mut parts, coupling, &Polynomial::term(monomial.clone(), c.clone()));
     }
     // The drift first, then pair after pair.
     let pairs: Vec<(usize, usize)> = lattice.pairs().collect();
@@ -155,8 +153,7 @@ fn exact_flow(arena: &Arena, name: String, rates: &[(Expr, Polynomial)]) -> Opti
             piece.shifts.push((*z, rate.clone()));
         } else if !turned.contains(z) {
             let (angular, y) = proportional(rate, &moves)?;
-            let (_, back) = rates.iter().find(|(symbol, _)| *symbol == y)?;
-            if !still(&angular) || *back != angular.mul(&Polynomial::atom(*z)).neg() {
+            if !still(&angular) || listed(rates)(y)? != angular.mul(&Polynomial::atom(*z)).neg() {
                 return None;
             }
             turned.extend([*z, y]);
@@ -246,12 +243,7 @@ fn together(group: Vec<Summand>) -> Piece {
     let names: Vec<&str> = group.iter().map(|summand| summand.flow.name.as_str()).collect();
     all.name = names.join(" + ");
     for summand in group {
-        for (z, rate) in summand.flow.shifts {
-            match all.shifts.iter_mut().find(|(known, _)| *known == z) {
-                Some((_, sum)) => sum.add_scaled(&rate, &Rational::ONE),
-                None => all.shifts.push((z, rate)),
-            }
-        }
+        summand.flow.shifts.iter().for_each(|(z, rate)| add_to(&mut all.shifts, *z, rate));
         all.turns.extend(summand.flow.turns);
         all.shared.extend(summand.flow.shared);
     }

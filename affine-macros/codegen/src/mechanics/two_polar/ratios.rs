@@ -203,27 +203,22 @@ fn pair(
         }
         sum
     };
-    let mut sides =
-        [(space, chi), (body, theta)].into_iter().zip(&angular_forms).map(|((side, angular), form)| {
-            let (mut common, primitive) = content(form);
-            // One reciprocal goes with the sum, the rest with t.
-            let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
-            let factor: Vec<Expr> = with_recip.into_iter().collect();
-            let scale = Polynomial::monomial(factor);
-            shared.push((side, paired(&primitive).mul(&scale)));
-            let mut outer = vec![side];
-            match common == sorted([ratio, recip]) {
-                true => outer.push(decay),
-                false => outer.extend(common),
-            }
-            shared.push((angular, Polynomial::monomial(outer)));
-            primitive.mul(&scale)
-        });
-    let (_, body_form) = (
-        sides.next(),
-        never_missing(sides.next(), "a pair of axes turns with space and with body", Polynomial::zero()),
-    );
-    drop(sides);
+    let [chi_form, theta_form] = &angular_forms;
+    let [_, body_form] = [(space, chi, chi_form), (body, theta, theta_form)].map(|(side, angular, form)| {
+        let (mut common, primitive) = content(form);
+        // One reciprocal goes with the sum, the rest with t.
+        let with_recip = common.iter().position(|atom| *atom == recip).map(|at| common.remove(at));
+        let factor: Vec<Expr> = with_recip.into_iter().collect();
+        let scale = Polynomial::monomial(factor);
+        shared.push((side, paired(&primitive).mul(&scale)));
+        let mut outer = vec![side];
+        match common == sorted([ratio, recip]) {
+            true => outer.push(decay),
+            false => outer.extend(common),
+        }
+        shared.push((angular, Polynomial::monomial(outer)));
+        primitive.mul(&scale)
+    });
     Pair { at, recip, u, w, angular: [chi, theta], angular_forms, body: (body, body_form) }
 }
 

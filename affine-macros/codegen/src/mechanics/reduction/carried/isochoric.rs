@@ -3,6 +3,7 @@
 
 use crate::algebra::rational::exponent;
 use crate::algebra::ring::{adjugate, pairs};
+use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Matrix, Polynomial, Rational};
 use crate::mechanics::charts::{Chart, Momentum};
 use crate::mechanics::equations::System;
@@ -91,9 +92,8 @@ impl Powers {
         let n = exponent(self.n);
         let powers = [(self.d, n), (self.r, n)].map(|(of, k)| arena.power(of, k));
         let values = [(self.weights[0].0, powers[0]), (self.weights[1].0, powers[1])];
-        let value = |symbol: Expr| values.iter().find(|(known, _)| *known == symbol).map(|(_, power)| *power);
         // Powers of D are not zero.
-        arena.replaced(atom, &value)
+        arena.replaced(atom, &listed(&values))
     }
 
     fn of_system(&self, arena: &mut Arena, system: &System) -> System {
