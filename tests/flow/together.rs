@@ -323,7 +323,7 @@ fn a_body_of_too_many_steps_waits_where_it_is() {
     assert!(flows.points().eq(alone.iter().map(Flow::point)));
     flows.set_max_steps(0);
     assert_eq!(flows.advance(0.1).unwrap_err().reason, Reason::StepLimit { limit: 0 });
-    flows.advance(0.0).unwrap();
+    assert_eq!(flows.advance(0.0).unwrap_err().reason, Reason::StepLimit { limit: 0 }, "they try again");
     flows.set_max_steps(1000);
     flows.advance(0.1).unwrap();
     alone.iter_mut().for_each(|body| {
@@ -384,4 +384,24 @@ fn is_not_moved(way: Method) {
     let mut none = together(way, cubes(0)).unwrap();
     none.advance(1.0).unwrap();
     assert!(none.is_empty() && none.t() == 1.0);
+}
+
+/// A frame that some bodies did not reach may be asked for again.
+#[test]
+fn bodies_that_stopped_try_again() {
+    for way in WAYS {
+        let mut flows = together(way, cubes(9)).unwrap();
+        flows.advance(0.01).unwrap();
+        flows.set_max_steps(if way == METHOD { 100 } else { 1 });
+        let stop = flows.advance(0.5).err();
+        assert!(way == METHOD || stop.is_some_and(|stop| matches!(stop.reason, Reason::StepLimit { .. })));
+        assert_eq!(flows.stopped().count(), if way == METHOD { 0 } else { 9 });
+        flows.set_max_steps(1000);
+        flows.advance_to(flows.t()).unwrap();
+        assert_eq!(flows.stopped().count(), 0, "{way:?}");
+        let mut others = together(way, cubes(9)).unwrap();
+        others.advance(0.51).unwrap();
+        let apart = |(one, other): (PointOf<3, Cube>, PointOf<3, Cube>)| (one.x() - other.x()).norm();
+        assert!(flows.points().zip(others.points()).map(apart).all(|apart| apart < 1e-6), "{way:?}");
+    }
 }

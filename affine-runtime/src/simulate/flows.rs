@@ -301,7 +301,7 @@ where
     H::Model: InLanes<N>,
     PointOf<N, H>: Send,
 {
-    /// Moves all bodies on by a time, forward or backward; by none they stay.
+    /// Moves all bodies on by a time, forward or backward; by none they stay, but for those that had stopped, which try again.
     ///
     /// # Errors
     /// As [`advance_to`](Self::advance_to); [`Setting::Step`] for a time that is lost in the rounding of [`t`](Self::t).
@@ -313,16 +313,18 @@ where
         self.advance_to(t_end)
     }
 
-    /// Moves all bodies to a time, earlier or later, which is reached exactly.
+    /// Moves all bodies to a time, earlier or later, which is reached exactly. Those that had stopped try again, also to get to the
+    /// time that the others have reached.
     ///
     /// # Errors
     /// A [`Stop`] of settings, before anything has moved; else that of the first body that did not get there. All others are there
     /// even so: [`stopped`](Self::stopped) tells which are not.
     pub fn advance_to(&mut self, t_end: f64) -> Result<(), Stop> {
-        if !self.has_way(t_end).map_err(|reason| self.stopped_by(reason))? {
-            return Ok(());
-        }
-        let left = all_moved(&mut self.eights, (t_end, self.plan.max_steps));
+        self.has_way(t_end).map_err(|reason| self.stopped_by(reason))?;
+        let left = match t_end == self.t {
+            true => Ok(Vec::new()),
+            false => all_moved(&mut self.eights, (t_end, self.plan.max_steps)),
+        };
         let of_failure =
             |failure| failed(failure, (self.plan.method, self.plan.tolerance), H::Model::DESCRIPTION.name);
         let left = left.map_err(|failure| self.stopped_by(of_failure(failure)))?;
@@ -350,20 +352,20 @@ where
         Ok(())
     }
 
-    /// There is a time to move to, and it is not the one reached.
-    fn has_way(&self, t_end: f64) -> Result<bool, Reason> {
+    /// There is a time to move to, by no more steps than there may be.
+    fn has_way(&self, t_end: f64) -> Result<(), Reason> {
         if !t_end.is_finite() {
             return Err(Setting::Time { name: "the time to move to", given: t_end }.into());
         }
         long_enough(self.t, t_end)?;
         self.plan.checked_step(self.t, t_end)?;
         if t_end == self.t {
-            return Ok(false);
+            return Ok(());
         }
         let (limit, step) = (self.plan.max_steps, self.plan.method.step());
         // Steps of their own lengths are one at least, and counted for each body.
         let least = step.map_or(1, |step| step_count(self.t, t_end, step).unwrap_or(u64::MAX));
-        if least <= limit { Ok(true) } else { Err(Reason::StepLimit { limit }) }
+        if least <= limit { Ok(()) } else { Err(Reason::StepLimit { limit }) }
     }
 }
 
