@@ -103,6 +103,8 @@ fn all_bad_and_none_at_all() {
     assert_eq!(ends[0].as_ref().unwrap_err().reason, Reason::StepLimit { limit: 1 });
     let refused = Ensemble::new(&Unprotected, one.clone()).until(1.0).tolerance(0.0).run().unwrap_err();
     assert_eq!(refused, Setting::Tolerance { given: 0.0 });
+    let unread = Ensemble::new(&Unprotected, one.clone()).until(1.0).every(0.0).run();
+    assert!(unread.is_err_and(|refused| refused.to_string().starts_with("output every 0")));
     assert_eq!(Ensemble::new(&Unprotected, one.clone()).run().unwrap_err(), Setting::NoEnd);
     // A program that returns errors says of an ensemble what it says of a run.
     let of_all = affine_runtime::Error::from(refused);

@@ -230,6 +230,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
+        self.checked()?;
         self.plan.output = Output::At(Vec::new());
         let mut ends = Vec::new();
         self.fold_in::<T, ()>(|_, _| (), |(), _, _| (), |body| ends.push(body.end))?;
