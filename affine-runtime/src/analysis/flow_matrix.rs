@@ -164,7 +164,8 @@ pub struct Sensitivities {
     /// By the start as positions and velocities: those of `x` and `phi` in the plain array, then their rates in the same order.
     /// Of a constraint, along what it admits.
     pub by_velocity: DMatrix<f64>,
-    /// By the fields in the order of their values, where the plain array of the start is held: placement and momentum.
+    /// By the fields in the order of [`Fields::FIELDS`], numbers before matrices, where the plain array of the start is held:
+    /// placement and momentum.
     pub by_fields: DMatrix<f64>,
     /// By the fields, where placement and velocity of the start are held.
     pub by_fields_at_velocity: DMatrix<f64>,
