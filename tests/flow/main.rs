@@ -2,6 +2,7 @@
 //! refused.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod barrier;
 mod dense;
 mod models;
 mod refusals;

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use affine_runtime::force::{AtPoint, Force, Motion, PointForce, Translation};
 use affine_runtime::frames::Space;
+use affine_runtime::potential::{Class, Place, Potential, Slopes};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Scalar;
 
@@ -164,6 +165,34 @@ impl Force<2> for Lift {
 #[derive(Clone)]
 pub(crate) struct Counted {
     pub(crate) lift: Lift,
+}
+
+/// `-ln(1 - x[1]^2)/10`, whose slope has values behind the walls at -1 and 1 as well.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Barrier;
+
+impl Potential<2> for Barrier {
+    const CLASS: Class = Class::General;
+    const POSITION: bool = true;
+    fn energy<T: Scalar>(&self, Place { x, .. }: &Place<2, T>) -> T {
+        T::constant(-0.1, 0.0) * (T::one() - x[0] * x[0]).ln()
+    }
+    fn slopes<T: Scalar>(&self, Place { x, .. }: &Place<2, T>) -> Slopes<2, T> {
+        let slope = T::constant(0.2, 0.0) * x[0] / (T::one() - x[0] * x[0]);
+        Slopes { x: Vector::<2, T>::new(slope, T::zero()), phi: Matrix::<2, T>::from_element(T::zero()) }
+    }
+}
+
+/// Between two walls.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = orthogonality(10) + custom(barrier, general, position),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Confined {
+    pub(crate) barrier: Barrier,
 }
 
 pub(crate) fn block(g: f64) -> Cube {

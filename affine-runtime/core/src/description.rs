@@ -48,6 +48,8 @@ pub struct Description {
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub domain: &'static [Guard],
+    /// A function of the user's is part of the potential: that it has no value is seen by its energy alone.
+    pub custom_potential: bool,
     /// Parts of the potential with an angle that the time turns, as written: `cos(w*t)`. [`Model::domain`](crate::Model::domain) gives the angles.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::words"))]
     pub angles: &'static [&'static str],
@@ -76,6 +78,7 @@ impl Description {
         second_order: false,
         series: true,
         domain: &[],
+        custom_potential: false,
         angles: &[],
         left_out: &[],
     };

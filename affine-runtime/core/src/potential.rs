@@ -51,6 +51,9 @@ impl Class {
 /// A potential energy as a function of the placement.
 ///
 /// Written once for all numbers. `sampling::check_potential` of `affine_runtime` holds class and derivatives against samples.
+///
+/// Where it has no value, its energy is no finite number: a motion that comes there ends. Steps are looked at where they end.
+/// Give slopes that are NaN there as well, so that no step passes over such a place unseen.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` computes no potential in dimension {N}",
     label = "no potential here",

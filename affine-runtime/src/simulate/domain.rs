@@ -108,6 +108,21 @@ impl Domain {
     }
 }
 
+/// The potential has a value at a point, as far as functions of the user's are part of it.
+///
+/// # Errors
+/// [`Reason::Energy`] where it has none.
+pub(super) fn has_value<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    (t, point): (f64, &P),
+) -> Result<(), Reason> {
+    if !model.description().custom_potential {
+        return Ok(());
+    }
+    let energy = model.hamiltonian(t, point);
+    if energy.is_finite() { Ok(()) } else { Err(Reason::Energy { energy, t }) }
+}
+
 /// May a function have a value, with one that it had before?
 fn admits(guard: &Guard, value: f64, before: f64) -> bool {
     match guard.bound {

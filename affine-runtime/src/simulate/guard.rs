@@ -3,7 +3,7 @@
 
 use super::collapse::{failing, first_failure, rate_of_determinant};
 use super::distortion::{products, told};
-use super::domain::Domain;
+use super::domain::{Domain, has_value};
 use super::failed::failed;
 use super::mechanics::Mechanics;
 use super::method::Method;
@@ -31,7 +31,7 @@ impl<const N: usize> Guard<N> {
     /// At the beginning of a motion from the placement of a point.
     ///
     /// # Errors
-    /// [`Reason::Domain`].
+    /// [`Reason::Domain`] or [`Reason::Energy`] where the potential has no value.
     pub(super) fn begin<P: Phase<N>>(
         model: &dyn Mechanics<N, P>,
         motion: &dyn Motion<P>,
@@ -40,6 +40,7 @@ impl<const N: usize> Guard<N> {
     ) -> Result<Self, Reason> {
         let signature = Signature::of(model.regularity(start.phi()));
         let (passes, description) = (passes_through_zero(model.description()), model.description());
+        has_value(model, (since, start))?;
         // The state is not expanded for a body that is asked for neither.
         let at = (passes || !description.domain.is_empty()).then(|| (motion.t(), motion.reached().0));
         let moment = at.as_ref().filter(|_| passes).map(|(t, point)| Moment::of(model, (*t, point)));
@@ -75,8 +76,8 @@ impl<const N: usize> Guard<N> {
     /// be finite and to keep its orientation?
     ///
     /// # Errors
-    /// [`Reason::Placement`] where the orientation is lost within it, found again or not; [`Reason::Domain`] where the
-    /// potential has no value.
+    /// [`Reason::Placement`] where the orientation is lost within it, found again or not; [`Reason::Domain`] or
+    /// [`Reason::Energy`] where the potential has no value.
     pub(super) fn stands<P: Phase<N>>(
         &mut self,
         model: &dyn Mechanics<N, P>,
@@ -97,6 +98,9 @@ impl<const N: usize> Guard<N> {
         }
         if let Some(domain) = &mut self.domain {
             domain.keep(model, motion, &reason)?;
+        }
+        if model.description().custom_potential {
+            has_value(model, (motion.t(), &motion.reached().0))?;
         }
         Ok(self.moment.is_some())
     }

@@ -74,6 +74,12 @@ where
         let point = self.handles[lane].model().expand(t, &self.of_lanes[lane], state);
         (point, work.map_or(0.0, |place| state.as_ref()[place]))
     }
+
+    /// The potential has a value at a state in a lane, as far as functions of the user's are part of it.
+    pub(super) fn has_value(&self, lane: usize, t: f64, state: &Reduced<N, H, f64>) -> bool {
+        let is_known = const { !<H::Model as Model<N>>::DESCRIPTION.custom_potential };
+        is_known || self.handles[lane].model().hamiltonian(t, &self.expanded(lane, t, state).0).is_finite()
+    }
 }
 
 /// The steps of a model are in vectors, so that those of the processor decide whether its lanes are fused as well; where the

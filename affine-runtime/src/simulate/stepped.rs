@@ -2,6 +2,7 @@
 
 use super::closed_form::ClosedForm;
 use super::course::{Choice, Course};
+use super::domain::has_value;
 use super::failed::failed;
 use super::guard::{Guard, explained};
 use super::mechanics::{Mechanics, Moving};
@@ -261,6 +262,7 @@ fn begun<'a, const N: usize, H: Handle<N> + 'a>(
     let (t, point) = start;
     plan.checked_method(moving.description())?;
     placed_at(&start)?;
+    has_value(moving, (t, &point))?;
     plan.checked_step(t, t)?;
     match (plan.method, moving.geodesic(t, &point)) {
         (Method::ClosedForm, None) => Err(Setting::NoClosedForm { model: moving.description().name }.into()),

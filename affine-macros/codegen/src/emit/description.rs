@@ -227,6 +227,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         ("second_order", second_order.then(|| quote!(true))),
         ("series", (!model.dynamics.reduced.has_series()).then(|| quote!(false))),
         ("domain", list(domain::guards(context))),
+        ("custom_potential", domain::is_custom(context).then(|| quote!(true))),
         ("angles", list(domain::angles(context))),
         ("left_out", list(left_out.collect())),
     ];

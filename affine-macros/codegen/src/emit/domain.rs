@@ -23,6 +23,11 @@ pub(super) fn guards(context: &Context) -> Vec<TokenStream> {
     guards.collect()
 }
 
+/// A function of the user's is part of the potential.
+pub(super) fn is_custom(context: &Context) -> bool {
+    context.spec.customs.iter().any(|custom| !custom.role.value.is_force())
+}
+
 /// The parts of the potential with an angle that the time turns.
 pub(super) fn angles(context: &Context) -> Vec<TokenStream> {
     let parts = context.model.point.domain.iter().flat_map(Domain::angles);

@@ -113,7 +113,7 @@ where
         recording: &mut Recording<'_, '_, N, PointOf<N, H>, A>,
     ) -> Next {
         let has_stepped = watched.bodies.has_stepped(lane);
-        if fate == Next::Alone || (has_stepped && !watched.bodies.keeps_orientation(lane)) {
+        if fate == Next::Alone || (has_stepped && !watched.bodies.stands(lane)) {
             return Next::Alone;
         }
         let t = watched.bodies.t(lane);

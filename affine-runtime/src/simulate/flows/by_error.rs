@@ -126,7 +126,7 @@ where
             self.bodies.advance().for_each(|(lane, fate)| fates[lane] = Some(fate));
             for (lane, is_moving) in is_moving.iter_mut().enumerate().filter(|(_, is_moving)| **is_moving) {
                 let has_stepped = self.bodies.has_stepped(lane);
-                let fate = match has_stepped && !self.bodies.keeps_orientation(lane) {
+                let fate = match has_stepped && !self.bodies.stands(lane) {
                     true => Some(Fate::Stuck),
                     false => fates[lane],
                 };

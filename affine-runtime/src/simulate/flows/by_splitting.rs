@@ -66,6 +66,11 @@ where
         self.together().expanded(lane, t, &of_lane(states, lane)).0
     }
 
+    fn has_value(&self, lane: usize) -> bool {
+        let (t, states) = self.integration.end();
+        self.together().has_value(lane, t, &of_lane(states, lane))
+    }
+
     /// The body in a lane keeps its orientation throughout its last step, looked at as by itself, and goes on from the end of it.
     fn goes_on(&self, lane: usize) -> bool {
         let (Together { handles, of_lanes, .. }, (t_end, to)) = (self.together(), self.integration.end());
@@ -95,7 +100,8 @@ where
     fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool {
         let (model, (t, _)) = (handle.model(), self.integration.end());
         let (state, constants) = model.reduce(t, point);
-        let fits = !is_looked_after(model, point) && stands::<N, H>(&state);
+        let has_value = !H::Model::DESCRIPTION.custom_potential || model.hamiltonian(t, point).is_finite();
+        let fits = has_value && !is_looked_after(model, point) && stands::<N, H>(&state);
         if fits {
             self.integration.put(lane, &state);
             self.integration.pieces_mut().0.put(lane, handle.clone(), constants);
@@ -134,8 +140,9 @@ where
         while !self.integration.is_finished() {
             let doubts = self.integration.advance();
             for lane in 0..EIGHT {
-                let is_doubtful = self.has_body[lane] && doubts.lane(lane) != 0.0;
-                let has_to_leave = is_doubtful && !self.goes_on(lane);
+                let is_sound =
+                    |own: &Self| (doubts.lane(lane) == 0.0 || own.goes_on(lane)) && own.has_value(lane);
+                let has_to_leave = self.has_body[lane] && !is_sound(self);
                 if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
                     let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
                     let (handle, from) = (self.handle(lane).clone(), (begin.0, point));

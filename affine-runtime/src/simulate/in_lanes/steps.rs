@@ -86,8 +86,15 @@ where
         }
     }
 
-    /// The body in a lane keeps its orientation throughout its last step, and goes on from the end of it.
-    pub(in crate::simulate) fn keeps_orientation(&mut self, lane: usize) -> bool {
+    /// The body in a lane goes on from the end of its last step: the potential has a value there, and the body has kept its
+    /// orientation throughout.
+    pub(in crate::simulate) fn stands(&mut self, lane: usize) -> bool {
+        let has_value = self.together().has_value(lane, self.t(lane), &self.integration.state(lane));
+        has_value && self.keeps_orientation(lane)
+    }
+
+    /// Throughout the last step, from the end of which it goes on.
+    fn keeps_orientation(&mut self, lane: usize) -> bool {
         if const { !passes_through_zero(&<H::Model as Model<N>>::DESCRIPTION) } {
             return true;
         }
