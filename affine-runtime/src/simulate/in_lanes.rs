@@ -76,9 +76,12 @@ where
     }
 
     /// The potential has a value at a state in a lane, as far as functions of the user's are part of it.
-    pub(super) fn has_value(&self, lane: usize, t: f64, state: &Reduced<N, H, f64>) -> bool {
-        let is_known = const { !<H::Model as Model<N>>::DESCRIPTION.custom_potential };
-        is_known || self.handles[lane].model().hamiltonian(t, &self.expanded(lane, t, state).0).is_finite()
+    pub(super) fn has_value(&self, lane: usize, reached: impl FnOnce() -> (f64, Reduced<N, H, f64>)) -> bool {
+        if const { !<H::Model as Model<N>>::DESCRIPTION.custom_potential } {
+            return true;
+        }
+        let (t, state) = reached();
+        self.handles[lane].model().hamiltonian(t, &self.expanded(lane, t, &state).0).is_finite()
     }
 }
 

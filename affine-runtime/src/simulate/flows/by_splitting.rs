@@ -68,7 +68,7 @@ where
 
     fn has_value(&self, lane: usize) -> bool {
         let (t, states) = self.integration.end();
-        self.together().has_value(lane, t, &of_lane(states, lane))
+        self.together().has_value(lane, || (t, of_lane(states, lane)))
     }
 
     /// The body in a lane keeps its orientation throughout its last step, looked at as by itself, and goes on from the end of it.

@@ -89,8 +89,8 @@ where
     /// The body in a lane goes on from the end of its last step: the potential has a value there, and the body has kept its
     /// orientation throughout.
     pub(in crate::simulate) fn stands(&mut self, lane: usize) -> bool {
-        let has_value = self.together().has_value(lane, self.t(lane), &self.integration.state(lane));
-        has_value && self.keeps_orientation(lane)
+        let reached = || (self.t(lane), self.integration.state(lane));
+        self.together().has_value(lane, reached) && self.keeps_orientation(lane)
     }
 
     /// Throughout the last step, from the end of which it goes on.
