@@ -3,5 +3,4 @@
 mod at_point;
 
 pub use affine_core::force::*;
-pub use affine_core::frames::{Body, Space};
 pub use at_point::{AtPoint, PointForce};
