@@ -183,7 +183,7 @@ impl Potential<2> for Barrier {
     }
 }
 
-/// Between two walls.
+/// A body whose centre of mass moves between the walls of [`Barrier`].
 #[affine_model(
     dim = 2,
     kinetic(dalembert = 1, space_translation = 1),

@@ -186,7 +186,7 @@ impl System {
             .chain(self.work.iter().map(|(_, p)| p))
     }
 
-    /// What moves.
+    /// The symbols whose rates it holds.
     pub fn moved(&self, arena: &Arena) -> Vec<Symbol> {
         self.rates.iter().map(|(_, symbol, _)| arena.symbol_of(*symbol)).collect()
     }

@@ -127,7 +127,7 @@ pub(in crate::mechanics) fn trace(of: impl Into<Sentence>) -> Sentence {
     Sentence::Trace(Box::new(of.into()))
 }
 
-/// Half of it.
+/// `of/2`, as it is written.
 pub(in crate::mechanics) fn half(arena: &mut Arena, of: Sentence) -> Sentence {
     Sentence::Multiple(arena.constant(Rational::HALF), Box::new(of))
 }
