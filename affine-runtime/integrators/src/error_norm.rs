@@ -89,7 +89,7 @@ impl ErrorNorm {
     #[doc(hidden)]
     pub fn probed<S: StateVector<f64>>(
         groups: &'static [Group],
-        f: &impl Fn(f64, &S) -> S,
+        f: &dyn Fn(f64, &S) -> S,
         (t, y, slope): (f64, &S, &S),
     ) -> (Self, u64) {
         let mut probed = Self::new(groups);

@@ -85,7 +85,7 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
 
     /// The Jacobian of `f` at `(t, y)`, where components change by about `extent` within a step. One evaluation,
     /// and one for each component.
-    pub(crate) fn differentiate(&mut self, f: &impl Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
+    pub(crate) fn differentiate(&mut self, f: &dyn Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
         self.learn(|columns| by_differences(f, (t, y, &f(t, y)), extent, columns));
     }
 
@@ -161,7 +161,7 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
 /// The Jacobian of `f` at `(t, y)`, where it is `slope`, column by column, where components change by about `extent` within a
 /// step. One evaluation for each component.
 pub(crate) fn by_differences<S: StateVector<f64>>(
-    f: &impl Fn(f64, &S) -> S,
+    f: &dyn Fn(f64, &S) -> S,
     (t, y, slope): (f64, &S, &S),
     extent: &S,
     columns: &mut [S],

@@ -149,7 +149,7 @@ pub(crate) fn trial(first: f64, span: f64, at_rest: impl FnOnce() -> f64) -> f64
 /// `h = (c tolerance)^(1/k)/r` for an error of order `h^k`, `c =` [`FIRST_ERROR`]. Costs one evaluation of `f`, for `y''` as
 /// a difference over a [`trial`] step.
 pub(crate) fn first_step<S: StateVector<f64>>(
-    f: &impl Fn(f64, &S) -> S,
+    f: &dyn Fn(f64, &S) -> S,
     error_norm: &ErrorNorm,
     (t, y, slope): (f64, &S, &S),
     span: f64,

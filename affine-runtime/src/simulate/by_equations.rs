@@ -2,7 +2,7 @@
 
 use super::by_radau::tableau;
 use super::course::Course;
-use super::layout::{Layout, has_work, placement_in};
+use super::layout::{Layout, has_work, moves_on_group, placement_in};
 use super::method::Method;
 use super::motion::{At, Boxed, Purpose, begun, boxed, expansion};
 use crate::error::{Reason, Setting};
@@ -10,9 +10,9 @@ use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
 use crate::integrate::radau::Differences;
 use crate::integrate::{Gauss, Radau, RungeKutta5, RungeKutta8};
-use crate::model::{Constraint, Group, Model};
+use crate::model::{Constraint, Group, Handle, Model};
 
-/// The reduced state by a method for any equations.
+/// The reduced state by a method for any equations. Bodies without constraints by [`Method::Radau`] step their velocities.
 pub(super) fn reduced<'a, const N: usize, M, C, H, const NAMED: bool>(
     at: At<'_, N, M, H>,
     coordinates: C,
@@ -31,42 +31,69 @@ where
         let equations = move |t: f64, reduced: &M::Reduced<f64>| {
             of_model.model().reduced_equations(t, &constants, reduced)
         };
-        // What is carried along would spoil the geometry of Gauss collocation: it is computed from the rest.
-        let (of_rest, of_model) = (equations.clone(), model.clone());
-        let closed = move |t: f64, reduced: &M::Reduced<f64>| of_rest(t, &of_model.model().renewed(reduced));
-        ((course.t0, state), equations, closed, expansion(model, constants))
+        ((course.t0, state), equations, expansion(model, constants))
     };
     match method {
-        Method::Gauss { stages, step } if const { NAMED } => {
-            let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+        Method::Gauss { stages, step } if const { NAMED } => by_gauss(at, coordinates, (stages, step), spent),
+        Method::Radau { stages }
+            if const { moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
+        {
             boxed(at, layout, spent, move |model, course| {
-                let (begin, _, closed, expand) = begun_at(model, course);
-                let gauss = Gauss::within(coordinates, closed, tableau, begin, course.t_end, step);
-                begun::<N, M, _, _>(course, gauss, expand)
-            })
-        }
-        Method::Radau { stages } if const { NAMED || has_work(&M::DESCRIPTION) } => {
-            boxed(at, layout, spent, move |model, course| {
-                let (begin, _, closed, expand) = begun_at(model, course);
-                let Course { t_end, tolerance, .. } = *course;
+                let (state, constants) = model.model().reduce(course.t0, course.start);
+                let Course { t0, t_end, tolerance, .. } = *course;
                 let tableau = tableau(stages, tolerance)?;
-                let equations = (closed, Differences);
+                let equations = (closed(model, constants), Differences);
+                let begin = (t0, state);
                 let radau = Radau::within(coordinates, equations, tableau, groups, begin, t_end, tolerance);
-                begun::<N, M, _, _>(course, radau, expand)
+                begun::<N, M, _, _>(course, radau, expansion(model, constants))
             })
         }
         Method::RungeKutta5 if const { NAMED } => boxed(at, layout, spent, move |model, course| {
-            let (begin, equations, _, expand) = begun_at(model, course);
+            let (begin, equations, expand) = begun_at(model, course);
             let Course { t_end, tolerance, .. } = *course;
             let steps = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
             begun::<N, M, _, _>(course, steps, expand)
         }),
         _ => boxed(at, layout, spent, move |model, course| {
-            let (begin, equations, _, expand) = begun_at(model, course);
+            let (begin, equations, expand) = begun_at(model, course);
             let Course { t_end, tolerance, .. } = *course;
             let steps = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
             begun::<N, M, _, _>(course, steps, expand)
         }),
+    }
+}
+
+/// The reduced state by Gauss collocation.
+pub(super) fn by_gauss<'a, const N: usize, M, C, H>(
+    at: At<'_, N, M, H>,
+    coordinates: C,
+    (stages, step): (usize, f64),
+    spent: &mut u64,
+) -> Result<Boxed<'a, N, H>, Reason>
+where
+    M: Model<N> + 'a,
+    C: Coordinates<M::Reduced<f64>> + 'a,
+    H: Purpose<'a, N, Model = M>,
+{
+    let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
+    let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
+    boxed(at, layout, spent, move |model, course| {
+        let (state, constants) = model.model().reduce(course.t0, course.start);
+        let equations = closed(model, constants);
+        let gauss = Gauss::within(coordinates, equations, tableau, (course.t0, state), course.t_end, step);
+        begun::<N, M, _, _>(course, gauss, expansion(model, constants))
+    })
+}
+
+/// The equations of a state of which what is carried along is computed from the rest: it would spoil the geometry of collocation.
+fn closed<const N: usize, M: Model<N>, H: Handle<N, Model = M>>(
+    model: &H,
+    constants: M::Constants<f64>,
+) -> impl Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64> + use<N, M, H> {
+    let model = model.clone();
+    move |t, reduced| {
+        let model = model.model();
+        model.reduced_equations(t, &constants, &model.renewed(reduced))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The integrators, each begun on the state that it steps.
 
-use super::by_equations::{chart, reduced};
+use super::by_equations::{by_gauss, chart, reduced};
 use super::by_radau::by_radau;
 use super::by_rattle::by_rattle;
 use super::choice::choose;
@@ -246,8 +246,7 @@ where
     R: Packing<M::Reduced<f64>, M::Constants<f64>> + 'a,
     H: Purpose<'a, N, Model = M>,
 {
-    let is_implicit = const { NAMED } && matches!(method, Method::Gauss { .. });
-    if const { !is_emitted::<R>() } || is_implicit {
+    if const { !is_emitted::<R>() } {
         return reduced::<N, M, _, _, NAMED>(at, Flat, method, spent);
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
@@ -258,6 +257,7 @@ where
         Ok::<_, Reason>((InVectors(packing, constants), (course.t0, reduced), expand))
     };
     match method {
+        Method::Gauss { stages, step } if const { NAMED } => by_gauss(at, Flat, (stages, step), spent),
         Method::RungeKutta5 if const { NAMED } => boxed(at, layout, spent, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta5::in_vectors(field, groups, begin, course.t_end, course.tolerance);

@@ -218,7 +218,7 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Variables<N, M, H> {
 impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Jacobian<M::Reduced<f64>> for Variables<N, M, H> {
     fn columns(
         &self,
-        f: &impl Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64>,
+        f: &dyn Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64>,
         at: (f64, &M::Reduced<f64>, &M::Reduced<f64>),
         columns: &mut [M::Reduced<f64>],
     ) -> u64 {

@@ -31,7 +31,7 @@ impl<const N: usize> Layout<N> {
     /// The layout of `groups`, with the masses that the equations `f` have at `(t, y)`.
     pub(super) fn of<S: StateVector<f64>>(
         groups: &[Group],
-        f: &impl Fn(f64, &S) -> S,
+        f: &dyn Fn(f64, &S) -> S,
         (t, y): (f64, &S),
     ) -> Result<Self, Failure> {
         let mut layout = Self::named(groups).ok_or(Failure::NotSeparable)?;
@@ -92,7 +92,7 @@ impl<const N: usize> Layout<N> {
     }
 
     /// Velocities at another placement and the momenta of `y` are those of the matrix.
-    fn is_separable<S: StateVector<f64>>(&self, f: &impl Fn(f64, &S) -> S, (t, y): (f64, &S)) -> bool {
+    fn is_separable<S: StateVector<f64>>(&self, f: &dyn Fn(f64, &S) -> S, (t, y): (f64, &S)) -> bool {
         let mut elsewhere = *y;
         // Shears of the body keep the determinant, and change every entry.
         for a in 0..N {

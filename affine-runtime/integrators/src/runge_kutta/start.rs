@@ -30,7 +30,7 @@ impl<S: StateVector<f64>> Start<S> {
     /// # Errors
     /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Time`], [`Failure::Tolerance`].
     pub fn of<P: Pair>(
-        f: &impl Fn(f64, &S) -> S,
+        f: &dyn Fn(f64, &S) -> S,
         groups: &'static [Group],
         (t0, y0): (f64, &S),
         t_end: f64,

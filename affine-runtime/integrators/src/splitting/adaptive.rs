@@ -226,7 +226,7 @@ const SMALL: f64 = 1e-8;
 
 /// The rate `omega` of the fastest motion near a state: `omega^2 = |A^3 y|/|A y|` with the derivative `A` of `f`, which a
 /// stiff oscillation with `A^2 = -omega^2` dominates. The change along the state itself changes the dilatation.
-pub fn fastest<S: StateVector<f64>>(f: &impl Fn(f64, &S) -> S, (t, y): (f64, &S)) -> f64 {
+pub fn fastest<S: StateVector<f64>>(f: &dyn Fn(f64, &S) -> S, (t, y): (f64, &S)) -> f64 {
     let slope = f(t, y);
     let mut along = *y;
     let mut sizes = [0.0; 3];
