@@ -226,6 +226,26 @@ mod silent {
     models! { 3 UnitInSpace FieldsInSpace }
 }
 
+/// Lints that the user allows of a struct, or that ask nobody to use it.
+#[deny(deprecated, non_camel_case_types)]
+mod allowed {
+    #[affine_runtime::affine_model(dim = 2, kinetic(body_inertia = a))]
+    #[allow(non_camel_case_types)]
+    pub struct small_letters {
+        pub a: f64,
+    }
+
+    #[affine_runtime::affine_model(dim = 2, kinetic(body_inertia = a), emit(lanes))]
+    #[deprecated]
+    pub struct Old {
+        pub a: f64,
+    }
+
+    #[affine_runtime::affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1))]
+    #[deprecated]
+    pub struct OldUnit;
+}
+
 /// The runtime under another name.
 mod renamed {
     mod inner {

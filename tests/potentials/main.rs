@@ -15,6 +15,27 @@ use table::{Energy, Row, counted};
 /// `|error| <= BOUND eps (|S| + |F|)`: a natural matrix formula needs 0.7 at most.
 const BOUND: f64 = 4.0;
 
+/// A constant moves nothing, and is part of the energy that was stated, whether it is written as a number or is a field.
+#[test]
+fn constants_are_part_of_the_energy() {
+    use affine_runtime::prelude::*;
+    let at = Matrix::<2>::new(1.1, 0.2, -0.1, 0.9);
+    macro_rules! energy {
+        ($($potential:tt)*) => {{
+            #[affine_model(dim = 2, kinetic(body_inertia = 1), potential = $($potential)*)]
+            struct Body;
+            let point = Body.at_velocity(at, Matrix::zeros()).unwrap();
+            assert!(Simulation::new(&Body, point).until(1.0).run().unwrap().points().iter().all(|end| (end.phi() - at).norm() < 1e-9));
+            Body.hamiltonian(0.0, &point)
+        }};
+    }
+    assert_eq!(energy!(3), 3.0);
+    assert_eq!(energy!(tr(1)), 2.0);
+    assert_eq!(energy!(0 * q + 5), 5.0);
+    assert_eq!(energy!(det * det ^ -1 + 2), 3.0);
+    assert_eq!(energy!(3 - 3), 0.0);
+}
+
 #[test]
 fn forces_within_the_rounding_of_the_placement() {
     let energies = energies::all();

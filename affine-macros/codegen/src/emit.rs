@@ -65,9 +65,13 @@ pub fn emit(spec: &Spec, model: &Model) -> TokenStream {
         None => (description::docs(&context), Some(metrics::lints(&context)), items(&context)),
     };
     let item = spec.item.documented(&docs);
+    let allowed = spec.item.allowed();
+    let allowed_of_prepared = has_fields.then_some(&allowed);
     quote! {
         #item
+        #allowed_of_prepared
         #prepared_type
+        #allowed
         #lints
         const _: () = {
             use #runtime::__private as #rt;

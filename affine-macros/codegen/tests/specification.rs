@@ -185,6 +185,33 @@ fn without_a_potential_fields_may_have_the_names_of_its_symbols() {
     assert_eq!(rejected.diagnostics().filter(|one| one.name() == "hidden-symbol").count(), 3);
 }
 
+/// Whatever the signs around them, but a minus of their own.
+#[test]
+fn summands_that_are_no_formulas_stand_anywhere_in_a_sum() {
+    let item = quote!(
+        struct M {
+            u: Energy,
+        }
+    );
+    let of = |potential: TokenStream| quote!(dim = 3, kinetic(body_inertia = 1), potential = #potential);
+    for (potential, counts) in [
+        (quote!(custom(u, isotropic) - 30 * q), [1, 0]),
+        (quote!(-30 * q + custom(u, isotropic)), [1, 0]),
+        (quote!(q * -2 - q ^ -2 + custom(u, isotropic) - -q ^ 2), [1, 0]),
+        (quote!(tr(G) + self_gravity(1) - 30 * q), [0, 1]),
+        (quote!(self_gravity(1) - 30 * q + custom(u, isotropic)), [1, 1]),
+    ] {
+        let spec = read(of(potential.clone()), item.clone());
+        assert_eq!([spec.customs.len(), spec.self_gravity.len()], counts, "{potential}");
+        assert!(spec.potential.is_some(), "{potential}");
+    }
+    for potential in
+        [quote!(-custom(u, isotropic)), quote!(q - self_gravity(1)), quote!(q * -custom(u, isotropic))]
+    {
+        assert!(gate(|found| parse(of(potential.clone()), item.clone(), found)).is_err(), "{potential}");
+    }
+}
+
 #[test]
 fn a_refused_model_with_a_potential_has_a_stand_in() {
     for potential in [quote!(abs(q)), quote!(kapa * q), quote!(custom(law)), quote!(x[1]), quote!(2 q)] {

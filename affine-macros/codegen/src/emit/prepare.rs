@@ -4,7 +4,7 @@ mod conditions;
 mod values;
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 
 use crate::derive::{ChangeOfBases, Step};
 use crate::spec::Field;
@@ -66,7 +66,8 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
 fn called<'a>(context: &'a Context) -> impl Iterator<Item = (Ident, &'a Field)> {
     context.spec.customs.iter().enumerate().filter_map(|(k, custom)| {
         let field = context.spec.item.fields.iter().find(|field| field.ident == custom.field)?;
-        Some((format_ident!("custom_{}", k + 1), field))
+        // The compiler says there what the type lacks.
+        Some((format_ident!("custom_{}", k + 1, span = field.ident.span()), field))
     })
 }
 
@@ -80,7 +81,8 @@ pub(super) fn method(context: &Context) -> TokenStream {
     let (generics, types, clause) = context.spec.item.generics.split_for_impl();
     let clones = called(context).map(|(name, field)| {
         let field = &field.ident;
-        quote!(, #name: ::core::clone::Clone::clone(&self.#field))
+        let clone = quote_spanned!(field.span()=> ::core::clone::Clone::clone(&self.#field));
+        quote!(, #name: #clone)
     });
     let marker = (!context.spec.customs.is_empty()).then(|| quote!(, model: ::core::marker::PhantomData));
     let of = (!context.spec.customs.is_empty()).then(|| quote!(#types));

@@ -3,7 +3,7 @@
 use super::base_functions::{Reading, value};
 use super::traces::{self, Trace};
 use super::{components, domain};
-use crate::algebra::residue::depends_on;
+use crate::algebra::residue::vanishes;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
@@ -23,7 +23,7 @@ pub struct PotentialEnergy {
     pub multiplied_out: Option<Expr>,
 }
 
-/// The potential energy, if the model states one that is not constant. Beside metrics it stands in orthonormal bases; what
+/// The potential energy, if the model states one that is not zero. Beside metrics it stands in orthonormal bases; what
 /// `prepare()` has to know of them is added to `rebased`.
 pub fn potential(
     arena: &mut Arena,
@@ -62,8 +62,7 @@ pub fn potential(
     };
     let multiplied_out = multiplied_out.filter(is_another);
     let slopes = through.map(|through| through.slopes);
-    // A constant moves nothing and leaves no trace.
-    depends_on(arena, energy, &|_| None).then_some(PotentialEnergy { energy, domain, slopes, multiplied_out })
+    (!vanishes(arena, energy)).then_some(PotentialEnergy { energy, domain, slopes, multiplied_out })
 }
 
 /// The slopes of an energy through those of its traces; `None` where all of these are base functions.

@@ -120,11 +120,13 @@ pub(super) enum Summand {
 pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec<Summand>, Option<Piece>) {
     let (mut taken, mut rest) = (Vec::new(), Vec::new());
     let tokens = unwrapped(piece.tokens);
-    let is_plus = |token: &TokenTree| matches!(token, TokenTree::Punct(plus) if plus.as_char() == '+');
-    let mut start: usize = 0;
-    for summand in tokens.split(is_plus) {
-        let sign = start.checked_sub(1).map(|plus| tokens[plus].clone());
-        start += summand.len() + 1;
+    // A sign after an operator belongs to what follows it.
+    let is_operator = |token: &TokenTree| matches!(token, TokenTree::Punct(_));
+    for signed in tokens.chunk_by(|before, after| is_operator(before) || !is_sign(after, "+-")) {
+        let summand = match signed {
+            [plus, summand @ ..] if is_sign(plus, "+") => summand,
+            _ => signed,
+        };
         match summand {
             [TokenTree::Ident(name), TokenTree::Group(group)]
                 if name == "custom" && group.delimiter() == Delimiter::Parenthesis =>
@@ -140,14 +142,15 @@ pub(super) fn taken(piece: Piece, place: Place, found: &mut Diagnostics) -> (Vec
             {
                 taken.extend(self_gravity(name.span(), group, found).map(Summand::SelfGravity));
             }
-            _ => {
-                rest.extend(sign.filter(|_| !rest.is_empty()));
-                rest.extend_from_slice(summand);
-            }
+            _ => rest.extend_from_slice(if rest.is_empty() { summand } else { signed }),
         }
     }
     let rest = region(&rest).map(|at| Piece { tokens: rest, at });
     (taken, rest)
+}
+
+fn is_sign(token: &TokenTree, signs: &str) -> bool {
+    matches!(token, TokenTree::Punct(sign) if signs.contains(sign.as_char()))
 }
 
 /// The strength of a body's gravity on itself.

@@ -45,6 +45,16 @@ impl Item {
         let gap = (!lines.is_empty()).then(|| quote!(#[doc = ""]));
         quote!(#(#attributes)* #gap #(#[doc = #lines])* #declaration)
     }
+
+    /// Attributes of what belongs to the struct: lints that the user allows there, and the use of a struct that is deprecated.
+    pub fn allowed(&self) -> TokenStream {
+        let allowed = self.attributes.iter().filter_map(|attribute| {
+            let path = attribute.path();
+            let is_allowed = || path.is_ident("allow").then(|| quote!(#attribute));
+            path.is_ident("deprecated").then(|| quote!(#[allow(deprecated)])).or_else(is_allowed)
+        });
+        allowed.collect()
+    }
 }
 
 /// A named field.
