@@ -76,7 +76,7 @@ impl<const N: usize> Scene<N> {
     /// `N = -phi (dU/dphi)^T` and `F = -dU/dx`, by forward differentiation of the plain definition.
     fn forces(&self) -> (Matrix<N>, Vector<N>) {
         let phi = self.phi.transpose();
-        let slopes = Slopes::of(potential, T0, self.x.as_slice(), phi.as_slice());
+        let slopes = Slopes::of(&potential, T0, self.x.as_slice(), phi.as_slice());
         let along_phi = Matrix::<N>::from_row_slice(&slopes.phi);
         (-self.phi * along_phi.transpose(), -Vector::<N>::from_column_slice(&slopes.x))
     }

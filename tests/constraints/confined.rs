@@ -39,7 +39,7 @@ trait Confined<const N: usize>: Model<N> + Sized {
     /// The exact motion through a point that the code may have moved.
     fn reference(&self, point: &Self::Point<f64>) -> Reference {
         let state = exact_state(Self::DESCRIPTION.full.last().unwrap().name(), point);
-        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, Self::potential)
+        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, &state, T0, &Self::potential)
     }
 }
 
@@ -54,7 +54,7 @@ fn agrees_with_the_oracle<const N: usize, M: Confined<N>>() {
         let energy = reference.expected.hamiltonian;
         let tolerance = UNDER_POTENTIAL * reference.condition;
         assert_close("H", &[model.hamiltonian(0.0, &point)], &[energy], reference.energy_size(), tolerance);
-        let potential = Slopes::of(M::potential, T0, point.x().as_slice(), &entries(point.phi())).value;
+        let potential = Slopes::of(&M::potential, T0, point.x().as_slice(), &entries(point.phi())).value;
         let kinetic = model.kinetic_energy(point.phi(), &velocity);
         assert_close("T", &[kinetic], &[energy - potential], reference.energy_size(), tolerance);
 
@@ -83,8 +83,8 @@ fn reduction_keeps_the_motion<const N: usize, M: Confined<N>>() {
         let state = exact_state(spin, &point);
         let condition = M::kinetic().constrained_condition(M::CONSTRAINT, &state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, UNDER_POTENTIAL * condition);
-        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, |t, state| {
-            Reference::confined(&M::kinetic(), M::CONSTRAINT, state, t, M::potential)
+        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, &|t, state| {
+            Reference::confined(&M::kinetic(), M::CONSTRAINT, state, t, &M::potential)
         });
     }
 }
@@ -95,10 +95,10 @@ fn lists_are_exact<const N: usize, M: Confined<N>>() {
     let spin = M::DESCRIPTION.full.last().unwrap().name();
     let states: Vec<State> = model.points().iter().map(|point| exact_state(spin, point)).collect();
     let held = |state: &State| {
-        let slopes = Slopes::of(M::potential, T0, &state.x.to_f64(), &state.phi.to_f64());
+        let slopes = Slopes::of(&M::potential, T0, &state.x.to_f64(), &state.phi.to_f64());
         slopes.x.iter().any(|slope| *slope != 0.0)
     };
-    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
+    let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, &M::potential).unwrap();
     let motions: Vec<Motion> = states.iter().map(motion).collect();
     assert_listed(N, M::CONSTRAINT, M::DESCRIPTION.conserved, &motions, M::TRANSLATION);
     if states.iter().any(held) {

@@ -37,7 +37,7 @@ trait Driven<const N: usize>: Model<N> + Sized {
     /// The potential whose slopes at the state are the forces, by their parts.
     fn linear(t: f64, state: &State) -> (Vec<f64>, Vec<f64>) {
         let kinetic = Self::kinetic();
-        let free = kinetic.constrained_motion(Self::CONSTRAINT, state, t, none).unwrap().expected().unwrap();
+        let free = kinetic.constrained_motion(Self::CONSTRAINT, state, t, &none).unwrap().expected().unwrap();
         Self::push(&Motion {
             t,
             x: vector(&state.x.to_f64()),
@@ -49,7 +49,7 @@ trait Driven<const N: usize>: Model<N> + Sized {
 
     fn reference(t: f64, state: &State) -> Reference {
         let (on_p, on_pi) = Self::linear(t, state);
-        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, state, t, |place| {
+        Reference::confined(&Self::kinetic(), Self::CONSTRAINT, state, t, &|place| {
             energy::<N>(place, &on_p, &on_pi)
         })
     }
@@ -79,7 +79,7 @@ fn agrees_with_the_oracle<const N: usize, M: Driven<N>>() {
         }
         let tolerance = UNDER_POTENTIAL * reference.condition;
         assert_charts_lead_back(&model, &point, &state, tolerance);
-        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, M::reference);
+        assert_reduced_equations_move(&model, &point, UNDER_POTENTIAL, &M::reference);
     }
 }
 
@@ -93,13 +93,13 @@ fn lists_are_exact<const N: usize, M: Driven<N>>(decided: bool) {
             let state = exact_state(spin, &point);
             let (on_p, on_pi) = M::linear(T0, &state);
             let linear = |place: &Place| energy::<N>(place, &on_p, &on_pi);
-            let motion = kinetic.constrained_motion(M::CONSTRAINT, &state, T0, linear).unwrap();
+            let motion = kinetic.constrained_motion(M::CONSTRAINT, &state, T0, &linear).unwrap();
             motion.bracket(observable).unwrap()
         };
         model.points().into_iter().map(bracket).collect()
     };
     let is_decided = |observable| decided && exists(observable, N, M::TRANSLATION);
-    let listed = listed_as_a_whole(M::DESCRIPTION.conserved, is_decided, BRACKET_ZERO, brackets);
+    let listed = listed_as_a_whole(M::DESCRIPTION.conserved, &is_decided, BRACKET_ZERO, &brackets);
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             continue;

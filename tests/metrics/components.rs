@@ -55,7 +55,7 @@ fn beside_numbers() {
                 + green(&g, place, 2, 2).ln()
                 + contracted(&g, |i| place.x(i), |j| place.x(j))
         };
-        kinetic.motion(state).unwrap().under(0.0, energy).unwrap().expected().unwrap()
+        kinetic.motion(state).unwrap().under(0.0, &energy).unwrap().expected().unwrap()
     };
     let (at, back) = moving!(Body, 2);
     agrees_under(&Body, &kinetic, under, at, back);
@@ -97,7 +97,7 @@ fn beside_fields() {
                 + place.x(3) * place.phi(2, 1)
                 + sinh * sinh * 0.5
         };
-        kinetic.motion(state).unwrap().under(0.0, energy).unwrap().expected().unwrap()
+        kinetic.motion(state).unwrap().under(0.0, &energy).unwrap().expected().unwrap()
     };
     let (at, back) = moving!(model, 3);
     agrees_under(&model, &kinetic, under, at, back);

@@ -283,7 +283,7 @@ fn potentials_of_fields() {
             let q = place.q() + Differential::constant(volumes);
             general(place) + q.sinh() * q.sinh()
         };
-        kinetic.motion(state).unwrap().under(0.0, energy).unwrap().expected().unwrap()
+        kinetic.motion(state).unwrap().under(0.0, &energy).unwrap().expected().unwrap()
     };
     let (at, back) = moving!(model, 3);
     agrees_under(&model, &kinetic, under, at, back);
@@ -314,7 +314,7 @@ fn potentials_of_fields() {
             }
             sum
         };
-        kinetic.motion(state).unwrap().under(0.0, energy).unwrap().expected().unwrap()
+        kinetic.motion(state).unwrap().under(0.0, &energy).unwrap().expected().unwrap()
     };
     let (at, back) = pinned!(model, 2);
     agrees_under(&model, &kinetic, under, at, back);

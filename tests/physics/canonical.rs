@@ -97,7 +97,7 @@ fn reduction_keeps_the_motion<const N: usize, F: Family<N>>() {
             let point = model.at(&state);
             let tolerance = CANONICAL * kinetic.condition(&state.phi).unwrap();
             assert_charts_lead_back(&model, &point, &state, tolerance);
-            assert_reduced_equations_move(&model, &point, CANONICAL, |_, state| {
+            assert_reduced_equations_move(&model, &point, CANONICAL, &|_, state| {
                 Reference::new(&kinetic, state)
             });
         }

@@ -12,7 +12,7 @@ fn assert_conserved(kinetic: &Kinetic, state: &State, listed: &[Conserved], tran
     let motion = kinetic.motion(state).unwrap();
     let n = state.dimension();
     let brackets = |of| vec![motion.bracket(of).unwrap()];
-    let listed = listed_as_a_whole(listed, |of| exists(of, n, translation), 0.0, brackets);
+    let listed = listed_as_a_whole(listed, &|of| exists(of, n, translation), 0.0, &brackets);
     for &quantity in Observable::ALL {
         if !exists(quantity, n, translation) {
             assert!(!listed.contains(&quantity), "{quantity:?} does not exist");

@@ -29,7 +29,7 @@ fn no_potential(place: &Place) -> Differential {
 fn velocities_agree<const N: usize, M: Sum<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
     for state in M::states() {
-        let reference = Reference::under(&kinetic, &state, T0, M::potential);
+        let reference = Reference::under(&kinetic, &state, T0, &M::potential);
         let point = model.at(&state);
         let tolerance = MIXED * reference.condition;
 

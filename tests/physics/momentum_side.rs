@@ -105,7 +105,7 @@ fn agrees_with_the_oracle<const N: usize, S: Statement<N>>() {
         for state in [state.at_rest(), state] {
             let point = model.at(&state);
             assert_charts_lead_back(&model, &point, &state, CANONICAL * at_point.condition);
-            assert_reduced_equations_move(&model, &point, CANONICAL, |_, state| reference(state));
+            assert_reduced_equations_move(&model, &point, CANONICAL, &|_, state| reference(state));
         }
     }
 }
@@ -121,7 +121,7 @@ fn lists_are_exact<const N: usize, S: Statement<N>>() {
             (state, S::DESCRIPTION.conserved, S::TRANSLATION),
         ] {
             let brackets = |of| vec![hamiltonian.bracket(of, &state)];
-            let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
+            let listed = listed_as_a_whole(listed, &|of| exists(of, N, translation), 0.0, &brackets);
             for &quantity in Observable::ALL {
                 let conserved =
                     exists(quantity, N, translation) && hamiltonian.bracket(quantity, &state).is_zero();

@@ -11,8 +11,8 @@ use crate::canonical::{T0, assert_charts_lead_back, assert_reduced_equations_mov
 use crate::conserved::{exists, listed_as_a_whole};
 use crate::families::{matrix, vector};
 use crate::stated::{
-    body_inertia, body_translation, casimir1_squared, casimir2, dalembert, dalembert_scalar, is_moving,
-    phase_point, space_inertia, space_translation, states,
+    at_rest, at_rest_and_moving, body_inertia, body_translation, casimir1_squared, casimir2, dalembert,
+    dalembert_scalar, is_moving, phase_point, space_inertia, space_translation, states,
 };
 use affine_tests::reference::{Reference, assert_close};
 use affine_tests::tolerances::{BRACKET_VISIBLE, BRACKET_ZERO, UNDER_POTENTIAL};
@@ -35,7 +35,7 @@ pub(crate) trait Loaded<const N: usize>: Model<N> + Sized {
     fn potential(place: &Place) -> Differential;
     fn at(&self, state: &State) -> Self::Point<f64>;
 
-    fn states() -> impl Iterator<Item = State> {
+    fn states() -> Vec<State> {
         states(N, Self::SEEDS, Self::TRANSLATION)
     }
 }
@@ -44,7 +44,7 @@ pub(crate) trait Loaded<const N: usize>: Model<N> + Sized {
 pub(crate) fn agrees_with_the_oracle<const N: usize, M: Loaded<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
     for state in M::states() {
-        let reference = Reference::under(&kinetic, &state, T0, M::potential);
+        let reference = Reference::under(&kinetic, &state, T0, &M::potential);
         let point = model.at(&state);
         let tolerance = M::TOLERANCE * reference.condition;
         let energy = reference.expected.hamiltonian;
@@ -60,12 +60,12 @@ pub(crate) fn agrees_with_the_oracle<const N: usize, M: Loaded<N>>() {
 /// too, where a turn of space has nothing to hold on to.
 pub(crate) fn reduction_keeps_the_motion<const N: usize, M: Loaded<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
-    for state in M::states().flat_map(|state| [state.at_rest(), state]) {
+    for state in at_rest_and_moving(&M::states()) {
         let point = model.at(&state);
         let tolerance = M::TOLERANCE * kinetic.condition(&state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, tolerance);
-        assert_reduced_equations_move(&model, &point, M::TOLERANCE, |t, state| {
-            Reference::under(&kinetic, state, t, M::potential)
+        assert_reduced_equations_move(&model, &point, M::TOLERANCE, &|t, state| {
+            Reference::under(&kinetic, state, t, &M::potential)
         });
     }
 }
@@ -73,31 +73,37 @@ pub(crate) fn reduction_keeps_the_motion<const N: usize, M: Loaded<N>>() {
 /// The lists of conserved quantities are those whose brackets with `H` vanish: nothing is missing, nothing is claimed.
 pub(crate) fn lists_are_exact<const N: usize, M: Loaded<N>>() {
     let description = M::DESCRIPTION;
-    assert_listed::<N, M>(description.conserved, M::states().collect(), M::TRANSLATION);
+    let body = (&M::kinetic(), &M::potential as &dyn Fn(&Place) -> Differential);
+    assert_listed(body, description.conserved, &M::states(), M::TRANSLATION);
     if M::HELD {
         // No motion keeps p = 0, so nothing can be promised beyond what all motions conserve.
         for quantity in description.conserved_at_rest {
             assert!(description.conserved.contains(quantity), "{quantity:?} of a body at rest");
         }
     } else {
-        let still = M::states().map(|state| state.at_rest()).collect();
-        assert_listed::<N, M>(description.conserved_at_rest, still, false);
+        assert_listed(body, description.conserved_at_rest, &at_rest(&M::states()), false);
     }
 }
 
-fn assert_listed<const N: usize, M: Loaded<N>>(listed: &[Conserved], states: Vec<State>, translation: bool) {
-    let kinetic = M::kinetic();
+/// Of no model, so that it is compiled once.
+fn assert_listed(
+    (kinetic, potential): (&Kinetic, &dyn Fn(&Place) -> Differential),
+    listed: &[Conserved],
+    states: &[State],
+    translation: bool,
+) {
+    let n = kinetic.dimension();
     let motions: Vec<Motion> =
-        states.iter().map(|state| kinetic.motion(state).unwrap().under(T0, M::potential).unwrap()).collect();
+        states.iter().map(|state| kinetic.motion(state).unwrap().under(T0, potential).unwrap()).collect();
     let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
-    let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), BRACKET_ZERO, brackets);
+    let listed = listed_as_a_whole(listed, &|of| exists(of, n, translation), BRACKET_ZERO, &brackets);
     for &observable in Observable::ALL {
         let expected = if observable == Observable::Energy {
             // The oracle's observable is the kinetic energy alone; dH/dt = dU/dt.
             states
                 .iter()
-                .all(|state| Slopes::of(M::potential, T0, &state.x.to_f64(), &state.phi.to_f64()).t == 0.0)
-        } else if !exists(observable, N, translation) {
+                .all(|state| Slopes::of(potential, T0, &state.x.to_f64(), &state.phi.to_f64()).t == 0.0)
+        } else if !exists(observable, n, translation) {
             false
         } else {
             let rates = motions.iter().flat_map(|motion| motion.bracket(observable).unwrap().to_f64());

@@ -6,11 +6,22 @@ use core::ops::Range;
 use affine_oracle::{Matrix as Exact, Random, State, Term, rational};
 
 /// States of a body in dimension `n`, with its centre of mass where there is translation.
-pub(crate) fn states(n: usize, seeds: Range<u64>, translation: bool) -> impl Iterator<Item = State> {
-    seeds.map(move |seed| {
+pub(crate) fn states(n: usize, seeds: Range<u64>, translation: bool) -> Vec<State> {
+    let of_seed = |seed| {
         let state = Random::new(seed).state(n);
         if translation { state } else { State { x: Exact::zeros(n, 1), ..state.at_rest() } }
-    })
+    };
+    seeds.map(of_seed).collect()
+}
+
+/// The same states without momenta.
+pub(crate) fn at_rest(states: &[State]) -> Vec<State> {
+    states.iter().map(State::at_rest).collect()
+}
+
+/// Each state without momenta, and then as it is.
+pub(crate) fn at_rest_and_moving(states: &[State]) -> Vec<State> {
+    states.iter().flat_map(|state| [state.at_rest(), state.clone()]).collect()
 }
 
 /// Whether a model has translation, by the word that stands in its row.

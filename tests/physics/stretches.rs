@@ -49,7 +49,7 @@ fn coincidence_is_smooth<const N: usize, M: Loaded<N>>() {
     let (model, kinetic) = (M::body(), M::kinetic());
     for state in coincident(N) {
         let state = if M::TRANSLATION { state } else { State { x: state.at_rest().p, ..state } };
-        let reference = Reference::under(&kinetic, &state, T0, M::potential);
+        let reference = Reference::under(&kinetic, &state, T0, &M::potential);
         let rates = model.hamilton_equations(T0, &model.flatten(&model.at(&state)));
         for (name, rate) in groups(M::DESCRIPTION.full, rates.as_ref()) {
             reference.assert_rate(name, rate, UNDER_POTENTIAL);

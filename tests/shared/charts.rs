@@ -4,6 +4,7 @@
 use affine_oracle::{Matrix as Exact, Observable, Rational, State, rational, rounded};
 use affine_runtime::model::{Conserved, Group, StateVector};
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Real;
 
 use crate::dual::Dual;
 use crate::reference::{Reference, assert_close, entries, exact_state, norm};
@@ -24,6 +25,22 @@ pub fn groups<'a, T>(layout: &'static [Group], array: &'a [T]) -> Vec<(&'static 
     parts
 }
 
+/// What a phase point is of, by name.
+type Parts<T> = [(&'static str, Vec<T>); 7];
+
+/// The parts of a point, each momentum in every frame. What is done with them is compiled once for all models.
+fn parts<const N: usize, T: Real>(point: &impl Phase<N, T>) -> Parts<T> {
+    [
+        ("x", point.x().as_slice().to_vec()),
+        ("phi", entries(point.phi())),
+        ("p", point.p().as_slice().to_vec()),
+        ("p_hat", point.p_hat().0.0.as_slice().to_vec()),
+        ("Sigma", entries(&point.sigma().0.0)),
+        ("Sigma_hat", entries(&point.sigma_hat().0.0)),
+        ("Pi", entries(&point.pi().0.0)),
+    ]
+}
+
 /// `point` is that of `state`.
 pub fn assert_charts_lead_back<const N: usize, M: Model<N>>(
     model: &M,
@@ -32,15 +49,20 @@ pub fn assert_charts_lead_back<const N: usize, M: Model<N>>(
     tolerance: f64,
 ) {
     let (reduced, constants) = model.reduce(T0, point);
-    for back in [model.unflatten(&model.flatten(point)), model.expand(T0, &constants, &reduced)] {
-        for (what, found, expected) in [
-            ("x", back.x().as_slice().to_vec(), state.x.to_f64()),
-            ("phi", entries(back.phi()), state.phi.to_f64()),
-            ("p", back.p().as_slice().to_vec(), state.p.to_f64()),
-            ("Pi", entries(&back.pi().0.0), state.pi.to_f64()),
-        ] {
-            assert_close(what, &found, &expected, norm(&expected), tolerance);
-        }
+    assert_parts(parts(&model.unflatten(&model.flatten(point))), state, tolerance);
+    assert_parts(parts(&model.expand(T0, &constants, &reduced)), state, tolerance);
+}
+
+fn assert_parts(parts: Parts<f64>, state: &State, tolerance: f64) {
+    for (what, found) in parts {
+        let expected = match what {
+            "x" => state.x.to_f64(),
+            "phi" => state.phi.to_f64(),
+            "p" => state.p.to_f64(),
+            "Pi" => state.pi.to_f64(),
+            _ => continue,
+        };
+        assert_close(what, &found, &expected, norm(&expected), tolerance);
     }
 }
 
@@ -51,36 +73,35 @@ pub fn assert_reduced_equations_move<const N: usize, M: Model<N>>(
     model: &M,
     start: &M::Point<f64>,
     tolerance: f64,
-    reference: impl FnOnce(f64, &State) -> Reference,
+    reference: &dyn Fn(f64, &State) -> Reference,
 ) {
     // Rotations by angles of order 1.
     let t = T0 + 0.75 * start.phi().norm() / model.velocity(start).phi_dot.norm();
     let (reduced, constants) = model.reduce(T0, start);
     let spin = M::DESCRIPTION.full.last().unwrap().name();
-    let reference = reference(t, &exact_state(spin, &model.expand(t, &constants, &reduced)));
+    let state = exact_state(spin, &model.expand(t, &constants, &reduced));
 
     let mut full = M::Full::<Dual>::zeros();
-    for (dual, value) in full.as_mut().iter_mut().zip(model.flatten(start).as_ref()) {
-        *dual = Dual::fixed(*value);
-    }
+    fix(full.as_mut(), model.flatten(start).as_ref());
     let (mut reduced, constants) = model.reduce(Dual::fixed(T0), &model.unflatten(&full));
     let now = Dual { value: t, slope: 1.0 };
     let rates = model.reduced_equations(now, &constants, &reduced);
-    for (state, rate) in reduced.as_mut().iter_mut().zip(rates.as_ref()) {
-        state.slope = rate.value;
-    }
-    let moving = model.expand(now, &constants, &reduced);
-    let slopes = |values: &[Dual]| values.iter().map(|dual| dual.slope).collect::<Vec<_>>();
-    for (name, found) in [
-        ("x", slopes(moving.x().as_slice())),
-        ("phi", slopes(&entries(moving.phi()))),
-        ("p", slopes(moving.p().as_slice())),
-        ("p_hat", slopes(moving.p_hat().0.0.as_slice())),
-        ("Sigma", slopes(&entries(&moving.sigma().0.0))),
-        ("Sigma_hat", slopes(&entries(&moving.sigma_hat().0.0))),
-        ("Pi", slopes(&entries(&moving.pi().0.0))),
-    ] {
-        reference.assert_rate(name, &found, tolerance);
+    move_by(reduced.as_mut(), rates.as_ref());
+    assert_rates(parts(&model.expand(now, &constants, &reduced)), &reference(t, &state), tolerance);
+}
+
+fn fix(duals: &mut [Dual], values: &[f64]) {
+    duals.iter_mut().zip(values).for_each(|(dual, value)| *dual = Dual::fixed(*value));
+}
+
+fn move_by(state: &mut [Dual], rates: &[Dual]) {
+    state.iter_mut().zip(rates).for_each(|(state, rate)| state.slope = rate.value);
+}
+
+fn assert_rates(moving: Parts<Dual>, reference: &Reference, tolerance: f64) {
+    for (name, moving) in moving {
+        let slopes: Vec<f64> = moving.iter().map(|dual| dual.slope).collect();
+        reference.assert_rate(name, &slopes, tolerance);
     }
 }
 
@@ -106,9 +127,9 @@ pub fn exists(quantity: Observable, n: usize, translation: bool) -> bool {
 /// among them.
 pub fn listed_as_a_whole(
     listed: &[Conserved],
-    exists: impl Fn(Observable) -> bool,
+    exists: &dyn Fn(Observable) -> bool,
     zero: f64,
-    brackets: impl Fn(Observable) -> Vec<Exact>,
+    brackets: &dyn Fn(Observable) -> Vec<Exact>,
 ) -> Vec<Observable> {
     let (mut whole, mut components) = (Vec::new(), Vec::new());
     for quantity in listed {

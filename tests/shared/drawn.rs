@@ -86,7 +86,7 @@ pub trait Drawn<const N: usize>: Model<N> + Sized {
 }
 
 fn reference<const N: usize, M: Drawn<N>>(kinetic: &Kinetic, t: f64, state: &State) -> Reference {
-    Reference::confined(kinetic, M::CONSTRAINT, state, t, M::potential)
+    Reference::confined(kinetic, M::CONSTRAINT, state, t, &M::potential)
 }
 
 fn spin<const N: usize, M: Drawn<N>>() -> &'static str {
@@ -106,7 +106,7 @@ pub fn full_equations<const N: usize, M: Drawn<N>>() {
 
             let (size, energy) = (reference.energy_size(), reference.expected.hamiltonian);
             assert_close("H", &[model.hamiltonian(T0, &point)], &[energy], size, tolerance);
-            let free = Reference::confined(&kinetic, M::CONSTRAINT, &state, T0, crate::group::none);
+            let free = Reference::confined(&kinetic, M::CONSTRAINT, &state, T0, &crate::group::none);
             let found = model.kinetic_energy(point.phi(), &velocity);
             assert_close("T", &[found], &[free.expected.hamiltonian], size, tolerance);
 
@@ -133,7 +133,7 @@ pub fn reduced_equations<const N: usize, M: Drawn<N>>() {
             let state = exact_state(spin::<N, M>(), &point);
             let condition = kinetic.constrained_condition(M::CONSTRAINT, &state.phi).unwrap();
             assert_charts_lead_back(&model, &point, &state, M::ROUNDING * condition);
-            assert_reduced_equations_move(&model, &point, M::ROUNDING, |t, state| {
+            assert_reduced_equations_move(&model, &point, M::ROUNDING, &|t, state| {
                 reference::<N, M>(&kinetic, t, state)
             });
         }
@@ -146,7 +146,7 @@ pub fn conserved_quantities<const N: usize, M: Drawn<N>>(held: bool) {
         let states: Vec<State> =
             model.points().iter().map(|point| exact_state(spin::<N, M>(), point)).collect();
         let motions = |states: &[State]| -> Vec<Motion<'_>> {
-            let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, M::potential).unwrap();
+            let motion = |state| kinetic.constrained_motion(M::CONSTRAINT, state, T0, &M::potential).unwrap();
             states.iter().map(motion).collect()
         };
         let group = M::CONSTRAINT;

@@ -236,7 +236,7 @@ pub fn under<const N: usize>(
     m: &Motion<N>,
     energy: fn(&OraclePlace) -> Differential,
 ) -> (Vec<f64>, Vec<f64>) {
-    let slopes = affine_oracle::Slopes::of(energy, m.t, m.x.as_slice(), &entries(&m.phi));
+    let slopes = affine_oracle::Slopes::of(&energy, m.t, m.x.as_slice(), &entries(&m.phi));
     let on_phi = matrix::<N>(&slopes.phi);
     (slopes.x.iter().map(|slope| -slope).collect(), entries(&-on_phi.transpose()))
 }

@@ -85,7 +85,7 @@ pub fn assert_listed(
 ) {
     let named = |observable| exists(observable, n, translation) && !has_another_name(constraint, observable);
     let brackets = |observable| motions.iter().map(|motion| motion.bracket(observable).unwrap()).collect();
-    let listed = listed_as_a_whole(listed, named, BRACKET_ZERO, brackets);
+    let listed = listed_as_a_whole(listed, &named, BRACKET_ZERO, &brackets);
     for &observable in Observable::ALL {
         if observable == Observable::Energy {
             assert!(listed.contains(&observable));

@@ -32,9 +32,9 @@ impl Reference {
         kinetic: &Kinetic,
         state: &State,
         t: f64,
-        potential: impl Fn(&Place) -> Differential,
+        potential: &dyn Fn(&Place) -> Differential,
     ) -> Self {
-        let slopes = Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64());
+        let slopes = Slopes::of(potential, t, &state.x.to_f64(), &state.phi.to_f64());
         Reference {
             expected: kinetic.motion(state).unwrap().under(t, potential).unwrap().expected().unwrap(),
             potential: slopes,
@@ -48,14 +48,14 @@ impl Reference {
         constraint: Constraint,
         state: &State,
         t: f64,
-        potential: impl Fn(&Place) -> Differential,
+        potential: &dyn Fn(&Place) -> Differential,
     ) -> Self {
-        let motion = kinetic.constrained_motion(constraint, state, t, &potential).unwrap();
+        let motion = kinetic.constrained_motion(constraint, state, t, potential).unwrap();
         Reference {
             expected: motion.expected().unwrap(),
             condition: kinetic.constrained_condition(constraint, &state.phi).unwrap(),
             state: state.clone(),
-            potential: Slopes::of(&potential, t, &state.x.to_f64(), &state.phi.to_f64()),
+            potential: Slopes::of(potential, t, &state.x.to_f64(), &state.phi.to_f64()),
         }
     }
 

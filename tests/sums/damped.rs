@@ -78,7 +78,7 @@ fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
             let point = model.at(&state);
             let condition = kinetic.condition(&state.phi).unwrap();
             assert_charts_lead_back(&model, &point, &state, ROUNDING * condition);
-            assert_reduced_equations_move(&model, &point, ROUNDING, |_, state| {
+            assert_reduced_equations_move(&model, &point, ROUNDING, &|_, state| {
                 Reference::damped(&kinetic, state, &dissipation)
             });
         }
@@ -91,7 +91,7 @@ fn lists_are_exact<const N: usize, M: Damped<N>>() {
     let holds = |listed: &[Conserved], states: Vec<State>, translation: bool| {
         let motions: Vec<Motion> = states.iter().map(|state| motion(&kinetic, state, &dissipation)).collect();
         let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
-        let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
+        let listed = listed_as_a_whole(listed, &|of| exists(of, N, translation), 0.0, &brackets);
         for &quantity in Observable::ALL {
             let conserved = exists(quantity, N, translation)
                 && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());
@@ -290,7 +290,9 @@ mod fields_beside_sums {
             for (name, rate) in groups(<Body as Model<3>>::DESCRIPTION.full, rates.as_ref()) {
                 expected.assert_rate(name, rate, ROUNDING);
             }
-            assert_reduced_equations_move(&model, &point, ROUNDING, |t, state| reference(&kinetic, t, state));
+            assert_reduced_equations_move(&model, &point, ROUNDING, &|t, state| {
+                reference(&kinetic, t, state)
+            });
             let run =
                 Simulation::new(&model, point).from(T0).until(T0 + 0.25).tolerance(1e-12).run().unwrap();
             let balance = run.power_balance().unwrap();

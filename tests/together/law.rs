@@ -122,7 +122,7 @@ impl Law {
     /// The motion through a point.
     pub(crate) fn at(&self, t: f64, state: &State) -> Expected {
         let n = self.n;
-        let slopes = Slopes::of(|place| self.potential(place), t, &state.x.to_f64(), &state.phi.to_f64());
+        let slopes = Slopes::of(&|place| self.potential(place), t, &state.x.to_f64(), &state.phi.to_f64());
         let transposed: Vec<f64> = (0..n * n).map(|k| -slopes.phi[n * (k % n) + k / n]).collect();
         let push = [slopes.x.iter().map(|slope| -slope).collect::<Vec<f64>>(), transposed];
         match &self.energy {
@@ -147,11 +147,11 @@ impl Law {
         let n = self.n;
         let (motion, condition) = match self.constraint {
             Some(constraint) => (
-                kinetic.constrained_motion(constraint, state, t, |place| self.potential(place)).unwrap(),
+                kinetic.constrained_motion(constraint, state, t, &|place| self.potential(place)).unwrap(),
                 kinetic.constrained_condition(constraint, &state.phi).unwrap(),
             ),
             None => (
-                kinetic.motion(state).unwrap().under(t, |place| self.potential(place)).unwrap(),
+                kinetic.motion(state).unwrap().under(t, &|place| self.potential(place)).unwrap(),
                 kinetic.condition(&state.phi).unwrap(),
             ),
         };

@@ -71,7 +71,7 @@ impl Motion<'_> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] where the potential or its gradient is.
-    pub fn under(mut self, t: f64, potential: impl Fn(&Place) -> Differential) -> Result<Self, Error> {
+    pub fn under(mut self, t: f64, potential: &dyn Fn(&Place) -> Differential) -> Result<Self, Error> {
         let n = self.state.dimension();
         let slopes = Slopes::of(potential, t, &self.state.x.to_f64(), &self.state.phi.to_f64());
         let force = Matrix::from_f64("dU/dphi", n, n, &slopes.phi)?;

@@ -102,7 +102,7 @@ pub struct Slopes {
 
 impl Slopes {
     /// Derivatives of `potential` at `(t, x, phi)`; `phi` row-major, of the dimension `x.len()`, 2 or 3.
-    pub fn of(potential: impl Fn(&Place) -> Differential, t: f64, x: &[f64], phi: &[f64]) -> Self {
+    pub fn of(potential: &dyn Fn(&Place) -> Differential, t: f64, x: &[f64], phi: &[f64]) -> Self {
         let place = Place::new(t, x, phi);
         let along = |coordinate: &dyn Fn(&mut Place) -> &mut Differential| {
             let mut moved = place.clone();

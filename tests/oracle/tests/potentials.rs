@@ -31,7 +31,7 @@ fn forces(
 ) -> (f64, DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
     let n = state.dimension();
     let phi = state.phi.to_f64();
-    let slopes = Slopes::of(potential, 0.0, &state.x.to_f64(), &phi);
+    let slopes = Slopes::of(&potential, 0.0, &state.x.to_f64(), &phi);
     let (phi, gradient) = (square(n, &phi), square(n, &slopes.phi).transpose());
     (slopes.value, -(&gradient * &phi), -(&phi * &gradient), phi)
 }
@@ -148,8 +148,8 @@ fn energy_is_conserved() {
             for (name, kinetic) in models(n) {
                 let motion = kinetic.motion(&state).unwrap();
                 let rest = motion.energy().clone();
-                let motion = motion.under(0.0, potential).unwrap();
-                let slopes = Slopes::of(potential, 0.0, &state.x.to_f64(), &state.phi.to_f64());
+                let motion = motion.under(0.0, &potential).unwrap();
+                let slopes = Slopes::of(&potential, 0.0, &state.x.to_f64(), &state.phi.to_f64());
                 let rate = motion.rate();
                 let along = |slopes: &[f64], rate: &Matrix| {
                     slopes.iter().zip(rate.to_f64()).map(|(slope, rate)| slope * rate).sum::<f64>()
@@ -301,7 +301,7 @@ fn conserved_and_not_conserved_under_potentials() {
                         .collect();
                     let motions = points
                         .iter()
-                        .map(|state| kinetic.motion(state).unwrap().under(0.0, potential).unwrap());
+                        .map(|state| kinetic.motion(state).unwrap().under(0.0, &potential).unwrap());
                     for (observable, largest) in largest_rates(motions) {
                         // The kinetic energy is no constant; tr sigma^3 = 0 identically for n = 2.
                         let listed =

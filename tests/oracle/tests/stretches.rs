@@ -44,7 +44,7 @@ fn symmetric_functions() {
         for phi in placements(n) {
             for (stretches, other) in routes {
                 let zero = vec![0.0; n];
-                let [found, expected] = [stretches, other].map(|route| Slopes::of(route, 0.0, &zero, &phi));
+                let [found, expected] = [stretches, other].map(|route| Slopes::of(&route, 0.0, &zero, &phi));
                 let size =
                     expected.phi.iter().fold(1.0 + expected.value.abs(), |size, slope| size + slope.abs());
                 let tolerance = 1e-10 * size;

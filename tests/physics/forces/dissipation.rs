@@ -9,8 +9,8 @@ use crate::conserved::{exists, listed_as_a_whole};
 use crate::families::{matrix, vector};
 use crate::integrate::extrapolated;
 use crate::stated::{
-    body_inertia, body_translation, casimir1_squared, casimir2, dalembert, diagonal, is_moving, phase_point,
-    space_inertia, space_translation, states,
+    at_rest, at_rest_and_moving, body_inertia, body_translation, casimir1_squared, casimir2, dalembert,
+    diagonal, is_moving, phase_point, space_inertia, space_translation, states,
 };
 use affine_tests::reference::{Reference, assert_close};
 use affine_tests::tolerances::{DAMPED, POWER_BALANCE};
@@ -27,7 +27,7 @@ trait Damped<const N: usize>: Model<N> + Sized {
     fn dissipation() -> Kinetic;
     fn at(&self, state: &State) -> Self::Point<f64>;
 
-    fn states() -> impl Iterator<Item = State> {
+    fn states() -> Vec<State> {
         states(N, 7001..7004, Self::TRANSLATION)
     }
 }
@@ -68,11 +68,11 @@ fn agrees_with_the_oracle<const N: usize, M: Damped<N>>() {
 /// `expand` undoes `reduce`; its derivative along the reduced equations is the vector field of the oracle.
 fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
     let (model, kinetic, dissipation) = (M::body(), M::kinetic(), M::dissipation());
-    for state in M::states().flat_map(|state| [state.at_rest(), state]) {
+    for state in at_rest_and_moving(&M::states()) {
         let point = model.at(&state);
         let tolerance = DAMPED * kinetic.condition(&state.phi).unwrap();
         assert_charts_lead_back(&model, &point, &state, tolerance);
-        assert_reduced_equations_move(&model, &point, DAMPED, |_, state| {
+        assert_reduced_equations_move(&model, &point, DAMPED, &|_, state| {
             Reference::damped(&kinetic, state, &dissipation)
         });
     }
@@ -80,26 +80,34 @@ fn reduction_keeps_the_motion<const N: usize, M: Damped<N>>() {
 
 /// What is listed has rate 0 along the damped motion, exactly; what is not listed has not.
 fn lists_are_exact<const N: usize, M: Damped<N>>() {
-    let (kinetic, dissipation) = (M::kinetic(), M::dissipation());
-    let holds = |listed: &[Conserved], states: Vec<State>, translation: bool| {
-        let motions: Vec<Motion> = states.iter().map(|state| motion(&kinetic, state, &dissipation)).collect();
-        let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
-        let listed = listed_as_a_whole(listed, |of| exists(of, N, translation), 0.0, brackets);
-        for &quantity in Observable::ALL {
-            let conserved = exists(quantity, N, translation)
-                && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());
-            assert_eq!(listed.contains(&quantity), conserved, "{quantity:?} listed");
-        }
-    };
-    holds(M::DESCRIPTION.conserved, M::states().collect(), M::TRANSLATION);
-    holds(M::DESCRIPTION.conserved_at_rest, M::states().map(|state| state.at_rest()).collect(), false);
+    let body = (&M::kinetic(), &M::dissipation());
+    assert_listed(body, M::DESCRIPTION.conserved, &M::states(), M::TRANSLATION);
+    assert_listed(body, M::DESCRIPTION.conserved_at_rest, &at_rest(&M::states()), false);
+}
+
+/// Of no model, so that it is compiled once.
+fn assert_listed(
+    (kinetic, dissipation): (&Kinetic, &Kinetic),
+    listed: &[Conserved],
+    states: &[State],
+    translation: bool,
+) {
+    let n = kinetic.dimension();
+    let motions: Vec<Motion> = states.iter().map(|state| motion(kinetic, state, dissipation)).collect();
+    let brackets = |of| motions.iter().map(|motion| motion.bracket(of).unwrap()).collect();
+    let listed = listed_as_a_whole(listed, &|of| exists(of, n, translation), 0.0, &brackets);
+    for &quantity in Observable::ALL {
+        let conserved = exists(quantity, n, translation)
+            && motions.iter().all(|motion| motion.bracket(quantity).unwrap().is_zero());
+        assert_eq!(listed.contains(&quantity), conserved, "{quantity:?} listed");
+    }
 }
 
 /// `H(t) - H(t0)` is the work done along the reduced equations. For a short time: an indefinite metric turns friction
 /// into a growing motion.
 fn work_is_lost_energy<const N: usize, M: Damped<N>>() {
     let model = M::body();
-    let start = model.at(&M::states().next().unwrap());
+    let start = model.at(&M::states()[0]);
     let (reduced, constants) = model.reduce(T0, &start);
     let equations = |reduced: &M::Reduced<f64>| model.reduced_equations(T0, &constants, reduced);
     let end = extrapolated(&equations, reduced, DURATION, 16);
@@ -113,7 +121,7 @@ fn work_is_lost_energy<const N: usize, M: Damped<N>>() {
 /// The same of runs, by the explicit and the implicit methods.
 fn balance_closes<const N: usize, M: Damped<N>>() {
     let model = M::body();
-    let start = model.at(&M::states().next().unwrap());
+    let start = model.at(&M::states()[0]);
     for method in [Method::Automatic, Method::Gauss { stages: 3, step: 1e-3 }, Method::Radau { stages: None }]
     {
         let run =

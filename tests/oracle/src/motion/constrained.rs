@@ -100,7 +100,7 @@ impl Kinetic {
         constraint: Constraint,
         state: &State,
         t: f64,
-        potential: impl Fn(&Place) -> Differential,
+        potential: &dyn Fn(&Place) -> Differential,
     ) -> Result<Motion<'_>, Error> {
         let n = self.dimension();
         let (x_dot, phi_dot) = self.constrained_velocity(constraint, state)?;
