@@ -1,6 +1,6 @@
 //! What is conserved stands in the bases that the user states the model in: in the list, in tables, and as generators.
 
-use affine_runtime::analysis::{Condition, Generator, relative_equilibrium};
+use affine_runtime::analysis::{AnalysisError, Condition, Generator, relative_equilibrium};
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 
@@ -160,4 +160,37 @@ fn components_are_symmetries_of_the_analysis() {
     assert!(moving.point.x()[0].abs() < 1e-12);
     let x_dot = Body.velocity(&moving.point).x_dot;
     assert!((x_dot - Vector::<2>::new(0.0, 0.1)).norm() < 1e-12, "{x_dot}");
+}
+
+/// Of the planes of space and body, in orthonormal bases, those are symmetries whose entries are listed.
+#[test]
+fn turns_are_symmetries_of_the_analysis() {
+    #[affine_model(
+        dim = 3,
+        metrics(space = [[2, 0.3, 0.1], [0.3, 1, 0.2], [0.1, 0.2, 3]], body = [[1, 0.2, 0], [0.2, 3, 0.1], [0, 0.1, 2]]),
+        kinetic(dalembert = 1),
+        potential = tr(G)^2/8 - q + phi[3, 3]^2
+    )]
+    struct Body;
+    assert_eq!(components(Body::DESCRIPTION.conserved), ["S_12", "Vort_12"]);
+    let bases = Body.bases().unwrap();
+    let plane = |i: usize, j: usize| {
+        let mut plane = Matrix::<3>::zeros();
+        (plane[(j, i)], plane[(i, j)]) = (1.0, -1.0);
+        plane
+    };
+    // `tr(Sigma' A W A^T)` is the pairing of `W` with `A^T Sigma' A`, whose indices are lowered, and so for the body.
+    let turn =
+        |i, j| Generator { space: bases.space * plane(i, j) * bases.space.transpose(), ..Generator::zero() };
+    let of_body = |i, j| {
+        let body = bases.body_inverse.transpose() * plane(i, j) * bases.body_inverse;
+        Generator { body, ..Generator::zero() }
+    };
+    let guess = Body.at_velocity(Matrix::<3>::identity(), Matrix::<3>::zeros()).unwrap();
+    let is_one = |generator| {
+        let found = relative_equilibrium(&Body, &guess, &[generator], &[Condition::Velocity(0, 0.0)]);
+        !matches!(found, Err(AnalysisError::NotASymmetry { .. }))
+    };
+    assert!(is_one(turn(0, 1)) && is_one(of_body(0, 1)));
+    assert!(![turn(0, 2), turn(1, 2), of_body(0, 2), of_body(1, 2)].into_iter().any(is_one));
 }
