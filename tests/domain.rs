@@ -1,6 +1,8 @@
 //! Runs that leave the states at which their potential has a value, or lose their energy, end typed.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "domain/centre.rs"]
+mod centre;
 #[path = "domain/collapse.rs"]
 mod collapse;
 #[path = "domain/energies.rs"]

@@ -3,6 +3,8 @@
 
 #[path = "metrics/components.rs"]
 mod components;
+#[path = "metrics/conserved.rs"]
+mod conserved;
 #[path = "metrics/dissipation.rs"]
 mod dissipation;
 #[path = "metrics/fields.rs"]

@@ -80,9 +80,9 @@ fn reads_with_its_metrics<M: Model<3>>(
             |matrix: Matrix<3>, metric: Matrix<3>| matrix - inverse(&metric) * matrix.transpose() * metric;
         let (spin, vorticity) = (skew(phi * pi, g), skew(pi * phi, eta));
         let angular_momentum = skew(x * p.transpose() + phi * pi, g);
-        agrees("S", model.components(there.spin()), spin);
-        agrees("Vort", model.components(there.vorticity()), vorticity);
-        agrees("I - I^T", model.components(there.total_angular_momentum()), angular_momentum);
+        agrees("S_ij", model.components(there.spin()), g * spin);
+        agrees("Vort^AB", model.components(there.vorticity()), vorticity * inverse(&eta));
+        agrees("I - I^T", model.components(there.total_angular_momentum()), g * angular_momentum);
         close("|S|^2", &[there.spin().norm_squared()], &[-0.5 * (spin * spin).trace()], 1.0);
         close(
             "|Vort|^2",
@@ -133,7 +133,7 @@ fn what_is_listed_is_conserved() {
     let listed = run.description().conserved;
     assert!(listed.contains(&Conserved::Vorticity) && listed.contains(&Conserved::Spin), "{listed:?}");
     for quantity in listed.iter().filter(|quantity| **quantity != Conserved::Energy) {
-        let value = |point| quantity.of(&Body.orthonormal(point)).unwrap();
+        let value = |point| quantity.of(point, Body.bases().as_ref()).unwrap();
         let (begin, end) = (value(run.start().1), value(run.end().1));
         let distance = begin.distance(&end);
         assert!(distance < 1e-10 * (1.0 + begin.norm()), "{quantity:?} {distance:e}");

@@ -233,7 +233,7 @@ fn the_right_hand_side_does_not_grow() {
             let (metric, plain) = (Metric::DESCRIPTION, Plain::DESCRIPTION);
             assert_eq!(metric.reduced_operations, plain.reduced_operations, "{}", stringify!($($spec)*));
             assert_eq!(metric.full_operations, plain.full_operations, "{}", stringify!($($spec)*));
-            // Components are read in orthonormal bases, where their factors are others.
+            // Components stand in the user's bases, where their factors are others.
             assert_eq!(whole(metric.conserved), whole(plain.conserved));
             assert_eq!(metric.conserved.len(), plain.conserved.len());
         } )* };

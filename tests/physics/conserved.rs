@@ -52,7 +52,7 @@ fn components_of_a_heavy_top_stay() {
     let phi = Matrix::<3>::new(0.9, 0.1, 0.0, -0.2, 1.1, 0.05, 0.1, 0.0, 0.95);
     let spin = Matrix::<3>::new(0.1, 0.7, -0.2, -0.4, 0.2, 0.3, 0.5, -0.1, 0.0);
     let start = Top.at_momentum(x, phi, p, Comoving(spin)).unwrap();
-    let value = |quantity: &Conserved| quantity.of(&start).map(|value| value.as_slice().to_vec());
+    let value = |quantity: &Conserved| quantity.of(&start, None).map(|value| value.as_slice().to_vec());
     let values: Vec<_> = Top::DESCRIPTION.conserved[3..].iter().map(value).collect();
     let near = |value: &Option<Vec<f64>>, expected: f64| {
         assert!((value.as_ref().unwrap()[0] - expected).abs() < 1e-15, "{value:?} is not {expected}");

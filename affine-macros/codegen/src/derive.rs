@@ -62,7 +62,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let potential = written.as_ref().map(|ways| &ways.along_motions);
     let body = Body { motion: &motion, potential, forces: &forces };
     let mut coefficients = Constants::new(Quantity::Coefficient);
-    let Kept { moving, at_rest, rotations } = body.kept(arena)?;
+    let bases = form.metrics.as_ref().map(|metrics| metrics.factors(arena, &mut form.rebased.clone()));
+    let Kept { moving, at_rest, rotations } = body.kept(arena, bases.as_ref())?;
     let closed_form = body.closed_form(arena);
     let chart = motion.full_chart(arena);
     let full = body.full_equations(arena, &chart, at_points, &mut coefficients)?;
@@ -98,8 +99,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let regularity = conditions::regularity(arena, &motion, positive, require_positive, &mut coefficients)?;
     let quantities = body.quantities(arena, &chart, asked, &mut coefficients)?;
     let description = Facts {
-        conserved: Conserved::of(arena, &notation, &moving),
-        conserved_at_rest: Conserved::of(arena, &notation, &at_rest),
+        conserved: Conserved::of(arena, &notation, form.metrics.as_ref(), &moving),
+        conserved_at_rest: Conserved::of(arena, &notation, form.metrics.as_ref(), &at_rest),
         signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
         has_forces: !body.is_free(),
         groups: (form.space_group, form.body_group),

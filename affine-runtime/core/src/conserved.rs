@@ -2,9 +2,10 @@
 
 use crate::frames::{Matrix, Vector};
 use crate::kinematics::Kinematics;
+use crate::metrics::{Bases, Tensor};
 use crate::model::{Component, Conserved, Entry};
 use crate::norm::norm;
-use crate::state::{Euclidean, Phase};
+use crate::state::Phase;
 
 /// Independent components of a quantity: at most nine, in the dimensions 2 and 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,10 +70,8 @@ fn sum(component: Component, value: impl Fn(&Entry) -> Option<f64>) -> Option<f6
 
 /// Where an entry stands among the [components](Components::as_slice) of its momentum.
 fn place<const N: usize>(entry: &Entry) -> Option<usize> {
-    let (row, column) = (entry.row.checked_sub(1)?, entry.column.checked_sub(1)?);
-    if row >= N || column >= N {
-        return None;
-    }
+    let row = entry.row.checked_sub(1).filter(|row| *row < N)?;
+    let column = entry.column.checked_sub(1).filter(|column| *column < N)?;
     match entry.of {
         Conserved::LinearMomentum | Conserved::ComovingLinearMomentum => (column == 0).then_some(row),
         Conserved::OrbitalAngularMomentum
@@ -86,23 +85,30 @@ fn place<const N: usize>(entry: &Entry) -> Option<usize> {
 impl Conserved {
     /// The quantity at a phase point (Slawianowski et al., sections 2 and 5); `None` for the energy, which
     /// belongs to the model and not to the point, and for entries that a momentum does not have.
+    ///
+    /// `bases` are those of the model, [`Model::bases`](crate::model::Model::bases), and `None` of a point that stands in
+    /// orthonormal ones. The entries are those in the bases of the point, of angular momenta and vorticity
+    /// [`components`](crate::model::Model::components).
     #[must_use]
-    pub fn of<const N: usize, P: Phase<N> + Euclidean>(self, point: &P) -> Option<Components> {
+    pub fn of<const N: usize, P: Phase<N>>(self, point: &P, bases: Option<&Bases<N>>) -> Option<Components> {
+        let there = point.in_orthonormal(bases);
         Some(match self {
             Self::Energy => return None,
             Self::LinearMomentum => Components::vector(&point.p()),
             Self::ComovingLinearMomentum => Components::vector(&point.p_hat().0.0),
-            Self::OrbitalAngularMomentum => Components::skew(&point.orbital_angular_momentum().0.0),
+            Self::OrbitalAngularMomentum => {
+                Components::skew(&there.orbital_angular_momentum().components(bases))
+            }
             Self::TotalAffineMomentum => Components::matrix(&point.total_affine_momentum().0.0),
-            Self::TotalAngularMomentum => Components::skew(&point.total_angular_momentum().0.0),
+            Self::TotalAngularMomentum => Components::skew(&there.total_angular_momentum().components(bases)),
             Self::AffineSpin => Components::matrix(&point.sigma().0.0),
             Self::Deviator => Components::matrix(&point.sigma().deviator().0.0),
-            Self::Spin => Components::skew(&point.spin().0.0),
-            Self::SpinNorm => Components::number(point.spin().norm_squared()),
+            Self::Spin => Components::skew(&there.spin().components(bases)),
+            Self::SpinNorm => Components::number(there.spin().norm_squared()),
             Self::ComovingAffineSpin => Components::matrix(&point.sigma_hat().0.0),
             Self::ComovingDeviator => Components::matrix(&point.sigma_hat().deviator().0.0),
-            Self::Vorticity => Components::skew(&point.vorticity().0.0),
-            Self::VorticityNorm => Components::number(point.vorticity().norm_squared()),
+            Self::Vorticity => Components::skew(&there.vorticity().components(bases)),
+            Self::VorticityNorm => Components::number(there.vorticity().norm_squared()),
             Self::CanonicalMomentum => Components::matrix(&point.pi().0.0),
             Self::Casimir1 => Components::number(point.casimir(1)),
             Self::Casimir2 => Components::number(point.casimir(2)),
@@ -110,35 +116,41 @@ impl Conserved {
             Self::DeviatorCasimir2 => Components::number(point.shear_casimir(2)),
             Self::DeviatorCasimir3 => Components::number(point.shear_casimir(3)),
             Self::Component(component) => Components::number(sum(component, |entry| {
-                Some(*entry.of.of(point)?.as_slice().get(place::<N>(entry)?)?)
+                Some(*entry.of.of(point, bases)?.as_slice().get(place::<N>(entry)?)?)
             })?),
         })
     }
 
     /// The size of what the quantity is made of at a phase point, against which its drift is read: `|Sigma|^2` for
     /// `tr Sigma^2`, `|x| |p| + |Sigma|` for the total affine momentum, so that a quantity that vanishes has a scale
-    /// too. `None` for the energy.
+    /// too. `None` for the energy. Point and bases are those of [`of`](Self::of).
     #[must_use]
-    pub fn scale<const N: usize, P: Phase<N> + Euclidean>(self, point: &P) -> Option<f64> {
+    pub fn scale<const N: usize, P: Phase<N>>(self, point: &P, bases: Option<&Bases<N>>) -> Option<f64> {
+        let there = point.in_orthonormal(bases);
         let sigma = || norm(point.sigma().0.0.as_slice());
+        // `F^T m F`, as the components of angular momenta, `F = A`, and of vorticity, `F = B^-T`, are made.
+        let both = |m, factor| norm(Option::map_or(factor, m, |f: Matrix<N>| f.tr_mul(&m) * f).as_slice());
+        let lowered = |m| both(m, bases.map(|bases| bases.space));
         let sigma_hat = || norm(point.sigma_hat().0.0.as_slice());
         let p = || norm(point.p().as_slice());
-        let orbital = || norm(point.x().as_slice()) * p();
+        let orbital = || lowered(there.x() * there.p().transpose());
         Some(match self {
             Self::Energy => return None,
             Self::LinearMomentum => p(),
             Self::ComovingLinearMomentum => norm(point.phi().as_slice()) * p(),
             Self::OrbitalAngularMomentum => orbital(),
-            Self::TotalAffineMomentum | Self::TotalAngularMomentum => orbital() + sigma(),
-            Self::AffineSpin | Self::Deviator | Self::Spin | Self::Casimir1 => sigma(),
-            Self::SpinNorm | Self::Casimir2 | Self::DeviatorCasimir2 => square(sigma()),
-            Self::Casimir3 | Self::DeviatorCasimir3 => sigma() * square(sigma()),
-            Self::ComovingAffineSpin | Self::ComovingDeviator | Self::Vorticity => sigma_hat(),
-            Self::VorticityNorm => square(sigma_hat()),
+            Self::TotalAffineMomentum => norm(point.x().as_slice()) * p() + sigma(),
+            Self::TotalAngularMomentum => orbital() + lowered(there.sigma().0.0),
+            Self::Spin => lowered(there.sigma().0.0),
+            Self::AffineSpin | Self::Deviator | Self::Casimir1 => sigma(),
+            Self::SpinNorm | Self::Casimir2 | Self::DeviatorCasimir2 => sigma() * sigma(),
+            Self::Casimir3 | Self::DeviatorCasimir3 => sigma() * sigma() * sigma(),
+            Self::ComovingAffineSpin | Self::ComovingDeviator => sigma_hat(),
+            Self::Vorticity => both(there.sigma_hat().0.0, bases.map(|b| b.body_inverse.transpose())),
+            Self::VorticityNorm => sigma_hat() * sigma_hat(),
             Self::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
             Self::Component(Component { entries, .. }) => {
-                let each =
-                    entries.iter().map(|entry| Some(entry.factor.abs() as f64 * entry.of.scale(point)?));
+                let each = entries.iter().map(|e| Some(e.factor.abs() as f64 * e.of.scale(point, bases)?));
                 each.sum::<Option<f64>>()?
             }
         })
@@ -201,16 +213,12 @@ impl Conserved {
     }
 }
 
-fn square(value: f64) -> f64 {
-    value * value
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::frames::{Body, Canonical, Frame, Space};
-    use crate::state::{Centre, Phase, PhasePoint, Pinned};
+    use crate::state::{Centre, PhasePoint, Pinned};
 
     /// `phi = [[2, 1], [0, 1]]`, `Pi = [[1, 2], [3, 4]]`, so `Sigma = phi Pi = [[5, 8], [3, 4]]` and
     /// `Sigma_hat = Pi phi = [[2, 3], [6, 7]]`; `x = (1, 2)`, `p = (3, -1)`.
@@ -241,17 +249,17 @@ mod tests {
             (Conserved::DeviatorCasimir2, &[48.5], 12996.0),
         ];
         for (quantity, components, square_of_scale) in expected {
-            let value = quantity.of(&point()).unwrap();
+            let value = quantity.of(&point(), None).unwrap();
             assert_eq!(value.as_slice(), components, "{quantity:?}");
-            let scale = quantity.scale(&point()).unwrap();
+            let scale = quantity.scale(&point(), None).unwrap();
             if square_of_scale.is_nan() {
                 assert!((scale - (50f64.sqrt() + 114f64.sqrt())).abs() < 1e-14, "{quantity:?}");
             } else {
                 assert!((scale * scale / square_of_scale - 1.0).abs() < 1e-14, "{quantity:?}");
             }
         }
-        assert_eq!(Conserved::Energy.of(&point()), None);
-        assert_eq!(Conserved::Energy.scale(&point()), None);
+        assert_eq!(Conserved::Energy.of(&point(), None), None);
+        assert_eq!(Conserved::Energy.scale(&point(), None), None);
     }
 
     #[test]
@@ -259,7 +267,7 @@ mod tests {
         // m^2 = [[-1, 8, 2], [-3, 7, 5], [3, 2, 4]]; the deviator is m - 2.
         let m = Matrix::<3>::new(1.0, 2.0, 0.0, -1.0, 3.0, 1.0, 1.0, 0.0, 2.0);
         let point = PhasePoint::<3, Space, Pinned>::new(Matrix::<3>::identity(), m, Pinned);
-        let number = |quantity: Conserved| quantity.of(&point).unwrap().as_slice().to_vec();
+        let number = |quantity: Conserved| quantity.of(&point, None).unwrap().as_slice().to_vec();
         assert_eq!(number(Conserved::Casimir1), [6.0]);
         assert_eq!(number(Conserved::Casimir2), [10.0]);
         assert_eq!(number(Conserved::Casimir3), [18.0]);
@@ -272,11 +280,8 @@ mod tests {
 
     #[test]
     fn components_by_hand() {
-        fn value<const N: usize, P: Phase<N> + Euclidean>(
-            point: &P,
-            entries: &'static [Entry],
-        ) -> Option<f64> {
-            let value = Conserved::Component(Component { symbol: "", entries }).of(point)?;
+        fn value<const N: usize, P: Phase<N>>(point: &P, entries: &'static [Entry]) -> Option<f64> {
+            let value = Conserved::Component(Component { symbol: "", entries }).of(point, None)?;
             assert_eq!(value.as_slice().len(), 1);
             Some(value.as_slice()[0])
         }
@@ -309,7 +314,8 @@ mod tests {
         assert_eq!(value(&space, const { &[entry(1, Spin, 2, 3)] }), Some(1.0));
         // |Sigma|^2 = 114, |Sigma_hat|^2 = 98.
         let both = const { &[entry(2, Spin, 1, 2), entry(-3, Vorticity, 1, 2)] };
-        let size = Conserved::Component(Component { symbol: "", entries: both }).scale(&point()).unwrap();
+        let size =
+            Conserved::Component(Component { symbol: "", entries: both }).scale(&point(), None).unwrap();
         assert!((size - (2.0 * 114f64.sqrt() + 3.0 * 98f64.sqrt())).abs() < 1e-13, "{size}");
     }
 
@@ -319,7 +325,7 @@ mod tests {
             let Centre { x, p } = Centre { x: point().x(), p: point().p() };
             let other = PhasePoint::<2, F, _>::new(*point().phi(), stored, Centre { x, p });
             for quantity in [Conserved::AffineSpin, Conserved::Vorticity, Conserved::CanonicalMomentum] {
-                let (a, b) = (quantity.of(&other).unwrap(), quantity.of(&point()).unwrap());
+                let (a, b) = (quantity.of(&other, None).unwrap(), quantity.of(&point(), None).unwrap());
                 assert!(a.distance(&b) < 1e-14, "{quantity:?}");
             }
         }

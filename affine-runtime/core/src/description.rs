@@ -246,11 +246,11 @@ pub enum Conserved {
     Component(Component),
 }
 
-/// A sum of multiples of entries of momenta, read in orthonormal bases as the momenta are.
+/// A sum of multiples of entries of momenta in the bases that the user states the model in, as [`Conserved::of`] has them.
 ///
 /// A model lists the sums over `p`, `S`, `x p^T - p x^T` and `Vort`, and over the entries of each affine momentum, that it
 /// conserves: a basis, without what follows from momenta that are conserved as a whole. Sums whose factors depend on the fields
-/// of the model, or have ratios of numbers above 32768, are not listed.
+/// or the metrics of the model, or have ratios of numbers above 32768, are not listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Component {

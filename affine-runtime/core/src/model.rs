@@ -163,8 +163,8 @@ pub trait Model<const N: usize> {
     }
 
     /// Components of a tensor in the model's own bases, of one that was read off an [`orthonormal`](Self::orthonormal) point:
-    /// `G_AB = g_ij phi^i_A phi^j_B`, `C_ij = eta_AB (phi^-1)^A_i (phi^-1)^B_j`, `S^i_j = Sigma^i_j - g^ik Sigma^l_k g_lj`,
-    /// `Vort` likewise with `eta`.
+    /// `G_AB = g_ij phi^i_A phi^j_B`, `C_ij = eta_AB (phi^-1)^A_i (phi^-1)^B_j`, and skew
+    /// `S_ij = g_ik Sigma^k_j - g_jk Sigma^k_i`, `Vort^AB = Sigma_hat^A_C eta^CB - Sigma_hat^B_C eta^CA`.
     fn components(&self, tensor: impl Tensor<N>) -> Matrix<N> {
         tensor.components(self.bases().as_ref())
     }

@@ -156,9 +156,11 @@ fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 }
 
 /// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.
-pub(super) fn symmetries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
+pub(super) fn symmetries<const N: usize, M: Model<N>>(model: &M) -> Vec<Generator<N>> {
     let mut basis: Vec<Generator<N>> = Vec::new();
-    for generator in M::DESCRIPTION.conserved.iter().flat_map(|quantity| generators::<N>(*quantity)) {
+    let bases = model.bases();
+    let listed = M::DESCRIPTION.conserved.iter();
+    for generator in listed.flat_map(|quantity| generators(*quantity, bases.as_ref())) {
         let generator = confined::<N, M>(&generator);
         if assert_symmetry(&basis, &generator).is_err() {
             basis.push(generator);
@@ -197,8 +199,8 @@ pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) ->
     }
 }
 
-/// The generators whose momenta a quantity consists of.
-fn generators<const N: usize>(quantity: Conserved) -> Vec<Generator<N>> {
+/// The generators whose momenta a quantity consists of; `bases` are those that the entries of a component stand in.
+fn generators<const N: usize>(quantity: Conserved, bases: Option<&Bases<N>>) -> Vec<Generator<N>> {
     if let Conserved::Component(component) = quantity {
         let add = |sum: Generator<N>, entry: &Entry| {
             let (row, column) = if entry.of == Conserved::LinearMomentum {
@@ -206,12 +208,37 @@ fn generators<const N: usize>(quantity: Conserved) -> Vec<Generator<N>> {
             } else {
                 (entry.row, entry.column)
             };
-            generator_of(entry.of, row, column).map_or(sum, |one| sum.plus(entry.factor as f64, &one))
+            let one = generator_of(entry.of, row, column);
+            let one = one.map(|one| bases.map_or(one, |bases| in_orthonormal(entry.of, &one, bases)));
+            one.map_or(sum, |one| sum.plus(entry.factor as f64, &one))
         };
         return vec![component.entries.iter().fold(Generator::zero(), add)];
     }
     let all = (1..=N).flat_map(|row| (1..=N).map(move |column| (row, column)));
     all.filter_map(|(row, column)| generator_of(quantity, row, column)).collect()
+}
+
+/// The generator in orthonormal bases of an entry that a momentum has in others: `tr(m' X')` is `tr(m X)` with `m = A^-1 m' A`,
+/// `m = A^T m' A` where both indices are lowered, `m = B^-1 m' B` and `m = B^-1 m' B^-T` where both are raised.
+fn in_orthonormal<const N: usize>(of: Conserved, one: &Generator<N>, bases: &Bases<N>) -> Generator<N> {
+    let (a, b) = (&bases.space, &bases.body);
+    let is_turn = matches!(
+        of,
+        Conserved::OrbitalAngularMomentum
+            | Conserved::TotalAngularMomentum
+            | Conserved::Spin
+            | Conserved::Vorticity
+    );
+    let (right, left) = match is_turn {
+        true => (a.transpose(), bases.body_inverse.transpose()),
+        false => (bases.space_inverse, *b),
+    };
+    Generator {
+        space: a * one.space * right,
+        orbit: a * one.orbit * right,
+        body: left * one.body * bases.body_inverse,
+        drift: a * one.drift,
+    }
 }
 
 /// The generator of an entry of a momentum.

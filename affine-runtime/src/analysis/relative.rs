@@ -105,7 +105,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     generators: &[Generator<N>],
     conditions: &[Condition],
 ) -> Result<RelativeEquilibrium<N, M::Point<f64>>, AnalysisError> {
-    let basis = symmetries::<N, M>();
+    let basis = symmetries(model);
     let generators = &generators.iter().map(confined::<N, M>).collect::<Vec<_>>();
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
     conditions.iter().try_for_each(|condition| condition.assert_among(generators.len()))?;
@@ -123,7 +123,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
 /// An orthonormal basis of the directions in which solutions go on, without those of symmetries: the kernel of a Jacobian by the
 /// plain array, first, and by what else there is.
 pub(super) fn free<const N: usize, M: Model<N>>(model: &M, z: &Column, jacobian: &Dense, rank: f64) -> Dense {
-    let moved = orbit(model, &symmetries::<N, M>(), z).resize_vertically(jacobian.ncols(), 0.0);
+    let moved = orbit(model, &symmetries(model), z).resize_vertically(jacobian.ncols(), 0.0);
     let threshold = rank * jacobian.norm() * (1.0 + moved.norm());
     let along = span(&(&moved * absolute_kernel(&(jacobian * &moved), threshold)), rank);
     let all = kernel(jacobian, rank);
@@ -253,7 +253,7 @@ pub(super) struct Linearised<const N: usize> {
 impl<const N: usize> Linearised<N> {
     pub(super) fn at<M: Model<N>>(model: &M, zeta: &Generator<N>, point: &M::Point<f64>) -> Self {
         let z = vector(&model.flatten(point));
-        let symmetries = symmetries::<N, M>();
+        let symmetries = symmetries(model);
         let basis = kernel(&normals(model, &z), RANK);
         let slopes = linear_motion(model, zeta, &z);
         let form = symplectic_form(model, &z);

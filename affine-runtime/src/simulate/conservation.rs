@@ -105,9 +105,19 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         self.points.iter().map(distance).map(relative).collect()
     }
 
-    /// A quantity, where transposes and norms are the plain ones.
-    fn value(&self, quantity: Conserved, point: &P) -> Option<Components> {
-        quantity.of(&self.orthonormal(point))
+    /// A quantity where its norm is that of the metrics; a sum of entries stands in the bases of the points.
+    pub(super) fn value(&self, quantity: Conserved, point: &P) -> Option<Components> {
+        match quantity {
+            Conserved::Component(_) => quantity.of(point, self.bases.as_deref()),
+            _ => quantity.of(&self.orthonormal(point), None),
+        }
+    }
+
+    fn scale(&self, quantity: Conserved, point: &P) -> Option<f64> {
+        match quantity {
+            Conserved::Component(_) => quantity.scale(point, self.bases.as_deref()),
+            _ => quantity.scale(&self.orthonormal(point), None),
+        }
     }
 
     /// A phase point of the trajectory in bases in which the model's metrics are the identity, as
@@ -129,7 +139,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         for point in self.points.iter().chain([&self.start.1, &self.end.1]) {
             let distance = self.value(quantity, point).map_or(0.0, |value| value.distance(&at_start));
             drift.absolute = larger(drift.absolute, distance);
-            drift.scale = larger(drift.scale, quantity.scale(&self.orthonormal(point)).unwrap_or(0.0));
+            drift.scale = larger(drift.scale, self.scale(quantity, point).unwrap_or(0.0));
         }
         drift
     }

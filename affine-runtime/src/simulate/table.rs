@@ -22,6 +22,9 @@ use crate::state::Phase;
 /// | `energy`, `work` | `H`, and the work of the forces that no potential has |
 /// | `spin12`, `second_Casimir`.. | entries of what is conserved, by its name |
 /// | `drift_energy`, `drift_spin`.. | how far that is from where it was at the start, by its norm |
+///
+/// With `metrics(...)` all but the norms stands in the bases that the user states the model in, as points do; the entries of what
+/// is conserved are those of [`Conserved::of`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Table {
@@ -174,16 +177,16 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         for (k, (t, point)) in self.iter().enumerate() {
             let energy = self.energies.outputs.get(k).copied().unwrap_or(f64::NAN);
             let work = is_balanced.then(|| self.energies.work.get(k).copied().unwrap_or(f64::NAN));
-            let at = |quantity: Conserved, point: &P| quantity.of(&self.orthonormal(point));
             let values = conserved.iter().flat_map(|quantity| {
-                let value = at(*quantity, point);
+                let value = quantity.of(point, self.bases.as_deref());
                 value.iter().flat_map(|value| value.as_slice().to_vec()).collect::<Vec<_>>()
             });
-            let drifts =
-                conserved.iter().map(|quantity| match (at(*quantity, point), at(*quantity, &start)) {
-                    (Some(value), Some(at_start)) => value.distance(&at_start),
-                    _ => (energy - self.energies.start).abs(),
-                });
+            let drifts = conserved.iter().map(|quantity| {
+                match self.value(*quantity, point).zip(self.value(*quantity, &start)) {
+                    Some((value, at_start)) => value.distance(&at_start),
+                    None => (energy - self.energies.start).abs(),
+                }
+            });
             let head = core::iter::once(t).chain(columns.values(point)).chain([energy]).chain(work);
             table.add(head.chain(values).chain(drifts));
         }
@@ -209,7 +212,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// The columns of a conserved quantity.
     fn names_of(&self, quantity: Conserved) -> Vec<String> {
         let own = name(quantity);
-        let Some(value) = quantity.of(&self.orthonormal(&self.start.1)) else { return Vec::new() };
+        let Some(value) = quantity.of(&self.start.1, self.bases.as_deref()) else { return Vec::new() };
         let is_vector = matches!(quantity, Conserved::LinearMomentum | Conserved::ComovingLinearMomentum);
         match value.as_slice().len() {
             // One entry of a skew matrix has its indices all the same.

@@ -1,6 +1,6 @@
 //! What a motion conserves, and how it is reduced.
 
-use crate::algebra::Arena;
+use crate::algebra::{Arena, Matrix};
 use crate::mechanics::body::Body;
 use crate::mechanics::charts::Chart;
 use crate::mechanics::closed_form::ClosedForm;
@@ -27,17 +27,18 @@ pub(super) struct Kept {
 
 impl Body<'_> {
     /// What is conserved by the kinetic energy, and then by what is added to it.
-    pub(super) fn kept(&self, arena: &mut Arena) -> Option<Kept> {
+    /// `bases` are those of [`Conservation`].
+    pub(super) fn kept(&self, arena: &mut Arena, bases: Option<&[Matrix; 2]>) -> Option<Kept> {
         let (motion, forces) = (self.motion, self.forces);
         let [chart, resting] = [true, false].map(|moving| motion.chart(arena, moving));
         let whole = motion.loads(arena, &chart)?;
         let internal = motion.loads(arena, &resting)?;
-        let mut moving = Conservation::of(&chart);
+        let mut moving = Conservation::of(&chart, bases);
         moving.under(arena, &whole);
         // Translation dropped, and with it what it alone makes meaningful.
         let mut at_rest = moving.clone();
         if chart.linear.is_some() {
-            at_rest = Conservation::of(&resting);
+            at_rest = Conservation::of(&resting, bases);
             at_rest.under(arena, &internal);
         }
         if let Some(u) = self.potential {

@@ -3,6 +3,7 @@
 use crate::algebra::Arena;
 use crate::mechanics::conserved::{Candidate, Conservation, Entry};
 use crate::mechanics::describe::{Notation, component};
+use crate::mechanics::metrics::Metrics;
 
 /// What a motion conserves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,8 +25,17 @@ pub struct Component {
 
 impl Conserved {
     /// What stays under everything that was looked at.
-    pub(super) fn of(arena: &mut Arena, notation: &Notation, conservation: &Conservation) -> Self {
-        let components = conservation.components(arena).into_iter();
+    pub(super) fn of(
+        arena: &mut Arena,
+        notation: &Notation,
+        metrics: Option<&Metrics>,
+        conservation: &Conservation,
+    ) -> Self {
+        let bases = match metrics {
+            Some(Metrics::Known(bases)) => Some(bases),
+            Some(Metrics::Given(_)) | None => None,
+        };
+        let components = conservation.components(arena, bases).into_iter();
         let components = components
             .map(|entries| Component { symbol: component(arena, notation, &entries), entries })
             .collect();

@@ -235,7 +235,7 @@ impl Custom {
         };
         let placed = Chart::new(arena, chart.dim, Momentum::Body, Some(Linear::Space));
         let rates = |seed| self.rates(&GroupPoint::numbered(arena, &placed, chart.confined, seed), chart);
-        conservation.under_forces(energy, &rates);
+        conservation.under_forces(arena, energy, &rates);
     }
 
     /// The rates of the momenta by a force of its form.

@@ -137,7 +137,8 @@ impl GroupPoint {
         sum
     }
 
-    fn of_atom(&self, arena: &Arena, atom: Expr) -> Residue {
+    /// The value of an expression.
+    pub(super) fn of_atom(&self, arena: &Arena, atom: Expr) -> Residue {
         if let Some(value) = self.known.borrow().get(&atom) {
             return *value;
         }

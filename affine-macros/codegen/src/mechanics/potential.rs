@@ -145,7 +145,7 @@ impl Potential {
     pub fn keep(&self, arena: &mut Arena, conservation: &mut Conservation) {
         let chart = Chart::new(arena, self.dim, Momentum::Body, Some(Linear::Space));
         let energy = !self.depends_on_time();
-        conservation.under_forces(energy, &|seed| self.invariance.at(arena, &chart, seed));
+        conservation.under_forces(arena, energy, &|seed| self.invariance.at(arena, &chart, seed));
     }
 
     /// The potential with what keeps the state within its domain.

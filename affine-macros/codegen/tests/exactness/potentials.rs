@@ -205,7 +205,7 @@ fn hamiltonians(chart: &Chart) -> Vec<(&'static str, Polynomial)> {
 /// What the motion of a Hamiltonian keeps.
 fn conserved(arena: &mut Arena, chart: &Chart, h: &Polynomial) -> Vec<Candidate> {
     let motion = Kinetics::polynomial(arena, chart, h).load();
-    let mut conservation = Conservation::of(chart);
+    let mut conservation = Conservation::of(chart, None);
     conservation.under(arena, &[motion]);
     conservation.whole
 }

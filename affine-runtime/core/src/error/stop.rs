@@ -182,7 +182,8 @@ impl fmt::Display for Reason {
             Reason::Setting(setting) => setting.fmt(f),
             Reason::NotFinite => f.write_str(
                 "the equations of motion or the phase point are not finite any more: the motion has left the range \
-                 of numbers or met a singularity of the model; end the run before, or change the potential",
+                 of numbers, or met a singularity of the model or a root without a slope, as `norm(x)` at x = 0; end the \
+                 run before, or change the potential",
             ),
             Reason::Placement { determinant, rate, t } => {
                 write!(f, "det phi = {determinant:e}, and not positive from t = {t} on")?;

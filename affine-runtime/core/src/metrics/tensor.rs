@@ -8,8 +8,7 @@ use crate::scalar::Real;
 /// A tensor with two indices in space, or two in the body, read off a phase point in orthonormal bases.
 pub trait Tensor<const N: usize, T: Real = f64> {
     /// Its components in the bases from which `bases` leads to orthonormal ones; `None` where these are orthonormal:
-    /// `F^T X F` of two lower indices, `F^-1 X F^-T` of two upper ones, `F^-1 X F` of an upper and a lower one, with `F = A` in
-    /// space and `F = B` in the body.
+    /// `F^T X F` of two lower indices, `F^-1 X F^-T` of two upper ones, with `F = A` in space and `F = B` in the body.
     fn components(&self, bases: Option<&Bases<N, T>>) -> Matrix<N, T>;
 }
 
@@ -29,9 +28,9 @@ tensors! {
     Comoving<DeformationTensor<N, T>>: |x, bases| bases.body.tr_mul(&x) * bases.body;
     Comoving<InverseDeformationTensor<N, T>>: |x, bases| bases.body_inverse * x * bases.body_inverse.transpose();
     Comoving<Strain<N, T>>: |x, bases| bases.body.tr_mul(&x) * bases.body;
-    Comoving<Vorticity<N, T>>: |x, bases| bases.body_inverse * x * bases.body;
+    Comoving<Vorticity<N, T>>: |x, bases| bases.body_inverse * x * bases.body_inverse.transpose();
     Spatial<DeformationTensor<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
     Spatial<InverseDeformationTensor<N, T>>: |x, bases| bases.space_inverse * x * bases.space_inverse.transpose();
     Spatial<Strain<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
-    Spatial<AngularMomentum<N, T>>: |x, bases| bases.space_inverse * x * bases.space;
+    Spatial<AngularMomentum<N, T>>: |x, bases| bases.space.tr_mul(&x) * bases.space;
 }

@@ -21,6 +21,7 @@ impl Arena {
             }
             same
         });
+        self.cancel_roots(&mut bases);
         bases.retain(|(_, exponent)| *exponent != 0);
         let body = match bases.as_slice() {
             [] => return Some(self.constant(number)),
@@ -81,6 +82,19 @@ impl Arena {
         let mut summands: Vec<(Expr, Rational)> = terms.iter().map(|(term, c)| (*term, c * &scale)).collect();
         summands.push((self.constant(&constant * &scale), Rational::ONE));
         Some((lead, self.linear(&summands)))
+    }
+
+    /// `u/sqrt(u) = sqrt(u)` wherever the root exists, also where it has no reciprocal.
+    fn cancel_roots(&self, bases: &mut [(Expr, i32)]) {
+        for root in 0..bases.len() {
+            let Node::Function(Function::Sqrt, argument) = *self.node(bases[root].0) else { continue };
+            let argument = bases.iter().position(|(base, exponent)| *base == argument && *exponent > 0);
+            if let Some(argument) = argument.filter(|_| bases[root].1 < 0) {
+                let cancelled = bases[argument].1.min((1 - bases[root].1) / 2);
+                bases[argument].1 -= cancelled;
+                bases[root].1 += 2 * cancelled;
+            }
+        }
     }
 
     /// Writes sums that a reciprocal cancels up to a number as that number times the reciprocal's base.

@@ -107,6 +107,19 @@ impl Candidate {
     }
 }
 
+/// A multiple of an entry of a momentum in the user's bases, row and column from 1; of a vector the column is 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// How often it is taken.
+    pub factor: i64,
+    /// The momentum.
+    pub of: Candidate,
+    /// The row.
+    pub row: usize,
+    /// The column.
+    pub column: usize,
+}
+
 /// The quantities that exist in a chart.
 pub fn candidates(chart: &Chart) -> Vec<Candidate> {
     let exists = |c: &Candidate| {

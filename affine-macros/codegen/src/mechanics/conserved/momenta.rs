@@ -1,13 +1,17 @@
 //! The momenta that are linear in `p` and `Pi`: the generators of translations and of the left and right action.
 
 use crate::algebra::Rational;
+use crate::algebra::evaluate::Field;
 use crate::algebra::residue::Residue;
-use crate::algebra::ring::{Ring, Square, outer, product, times, transpose};
+use crate::algebra::ring::{Ring, Square, outer, product, table, times, transpose};
 
 use super::candidate::Candidate;
 
 /// All of them at a point modulo a prime, or their rates there: `p`, `p_hat` and `x p^T` of a body that moves, and `Sigma`,
 /// `Sigma_hat`, `Pi`.
+///
+/// [Given](Momenta::given) in the user's bases, what the entries of angular momenta and vorticity are read off stands after them:
+/// `g Sigma`, `Sigma_hat eta^-1` and `g x p^T`, whose differences across the diagonal are skew.
 #[derive(Clone, Debug)]
 pub(in crate::mechanics) struct Momenta {
     layout: Layout,
@@ -20,7 +24,12 @@ pub(super) struct Layout {
     pub(super) dim: usize,
     /// Does the centre move?
     pub(super) moves: bool,
+    /// Do they stand in the user's bases?
+    pub(super) is_given: bool,
 }
+
+/// `A` of space and `B` of the body modulo a prime, `x' = A x`, `phi' = A phi B^-1` in orthonormal bases, each before its inverse.
+pub(super) type Factors = [[Square<Residue>; 2]; 2];
 
 /// A sum of whole multiples of places of the list.
 pub(super) type Combination = Vec<(i64, usize)>;
@@ -34,7 +43,7 @@ impl Momenta {
         centre: Option<(&[Residue], &[Residue], &Square<Residue>)>,
         internal: [&Square<Residue>; 3],
     ) -> Self {
-        let layout = Layout { dim: internal[0].len(), moves: centre.is_some() };
+        let layout = Layout { dim: internal[0].len(), moves: centre.is_some(), is_given: false };
         let centre = centre.map(|(p, p_hat, orbital)| [p, p_hat, &orbital.concat()].concat());
         let mut list = centre.unwrap_or_default();
         list.extend(internal.into_iter().flatten().flatten());
@@ -50,6 +59,36 @@ impl Momenta {
         let on_p_hat = times(&transpose(phi), on_p);
         let centre = (on_p, on_p_hat.as_slice(), &outer(x, on_p));
         Self::new(Some(centre), [&product(phi, on_pi), &product(on_pi, phi), on_pi])
+    }
+
+    /// Those of which the one at `place` is 1 and the others are 0.
+    pub(super) fn unit(layout: Layout, place: usize) -> Self {
+        let one = Residue::from_rational(&Rational::ONE);
+        let list = (0..layout.len()).map(|other| if other == place { one } else { Residue::ZERO });
+        Self { layout: Layout { is_given: false, ..layout }, list: list.collect() }
+    }
+
+    /// The same in the user's bases.
+    pub(super) fn given(&self, [[a, a_inverse], [b, b_inverse]]: &Factors) -> Self {
+        let (n, sigma) = (self.layout.dim, self.layout.internal());
+        let (orbital, sigma_hat, pi) = (2 * n, sigma + n * n, sigma + 2 * n * n);
+        let changed = |left: &Square<Residue>, start: usize, right: &Square<Residue>| {
+            let own = table(n, |i, j| self.list[start + n * i + j]);
+            product(&product(left, &own), right).concat()
+        };
+        let covector = |factor, start: usize| times(&transpose(factor), &self.list[start..start + n]);
+        let lowered = |start| changed(&transpose(a), start, a);
+        let mut list = Vec::new();
+        if self.layout.moves {
+            list = [covector(a, 0), covector(b, n), changed(a_inverse, orbital, a)].concat();
+        }
+        list.extend([changed(a_inverse, sigma, a), changed(b_inverse, sigma_hat, b)].concat());
+        list.extend([changed(b_inverse, pi, a), lowered(sigma)].concat());
+        list.extend(changed(b_inverse, sigma_hat, &transpose(b_inverse)));
+        if self.layout.moves {
+            list.extend(lowered(orbital));
+        }
+        Self { layout: Layout { is_given: true, ..self.layout }, list }
     }
 
     /// Those of a body whose centre does not move.
@@ -88,7 +127,7 @@ impl Layout {
         if self.moves { self.dim * (self.dim + 2) } else { 0 }
     }
 
-    /// How many there are.
+    /// How many there are in orthonormal bases.
     pub(super) fn len(self) -> usize {
         self.internal() + 3 * self.dim * self.dim
     }
@@ -102,18 +141,22 @@ impl Layout {
         }
         let (orbital, sigma) = (2 * n, self.internal());
         let (sigma_hat, pi) = (sigma + n * n, sigma + 2 * n * n);
+        let [spin, vorticity, angular] = match self.is_given {
+            true => [0, 1, 2].map(|k| self.len() + k * n * n),
+            false => [sigma, sigma_hat, orbital],
+        };
         match candidate {
             Candidate::LinearMomentum => self.vector(0),
             Candidate::ComovingLinearMomentum => self.vector(n),
-            Candidate::OrbitalAngularMomentum => self.skew(&[orbital]),
+            Candidate::OrbitalAngularMomentum => self.skew(&[angular]),
             Candidate::TotalAffineMomentum => self.matrix(&[orbital, sigma]),
-            Candidate::TotalAngularMomentum => self.skew(&[orbital, sigma]),
+            Candidate::TotalAngularMomentum => self.skew(&[angular, spin]),
             Candidate::AffineSpin => self.matrix(&[sigma]),
             Candidate::Deviator => self.deviator(sigma),
-            Candidate::Spin => self.skew(&[sigma]),
+            Candidate::Spin => self.skew(&[spin]),
             Candidate::ComovingAffineSpin => self.matrix(&[sigma_hat]),
             Candidate::ComovingDeviator => self.deviator(sigma_hat),
-            Candidate::Vorticity => self.skew(&[sigma_hat]),
+            Candidate::Vorticity => self.skew(&[vorticity]),
             Candidate::CanonicalMomentum => self.matrix(&[pi]),
             Candidate::Casimir1 => vec![((1, 1), self.trace(sigma))],
             Candidate::Energy

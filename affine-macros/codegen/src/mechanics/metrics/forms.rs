@@ -25,7 +25,7 @@ pub struct Rebased {
 }
 
 /// What `prepare()` makes a matrix from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// The matrix of a term, in orthonormal bases, from its entries in the user's, row after row.
     Form(TermKind, Vec<Expr>),
@@ -115,16 +115,19 @@ fn patterns(arena: &mut Arena, metrics: &[Vec<Vec<Expr>>; 2]) -> [Axes; 2] {
     metrics.each_ref().map(|rows| Axes::pattern(&Matrix(rows.clone()).normal_form(arena)))
 }
 
-/// The matrix that `prepare()` makes from `source`: symbols for the entries that do not vanish.
+/// The matrix that `prepare()` makes from `source`, once: symbols for the entries that do not vanish.
 fn to_prepare(
     arena: &mut Arena,
     source: Source,
     (size, vanishes): (usize, &dyn Fn(usize, usize) -> bool),
     rebased: &mut Vec<Rebased>,
 ) -> Matrix {
-    let number = rebased.len() + 1;
     let is_symmetric = matches!(source, Source::Form(..));
-    rebased.push(Rebased { number, source });
+    let known = rebased.iter().find(|matrix| matrix.source == source).map(|matrix| matrix.number);
+    let number = known.unwrap_or(rebased.len() + 1);
+    if known.is_none() {
+        rebased.push(Rebased { number, source });
+    }
     Matrix(table(size, |i, j| {
         let (row, column) = if is_symmetric { (i.min(j), i.max(j)) } else { (i, j) };
         match vanishes(i, j) {

@@ -57,7 +57,7 @@ impl Whole {
         weight.iter().chain(&acting).for_each(|load| full.add(load));
         let keeps = |candidate| potential.as_ref().is_none_or(|u| u.keeps(candidate));
         let moving: Vec<_> = weight.into_iter().chain([kinetics.load()]).collect();
-        let mut kept = Conservation::of(&own);
+        let mut kept = Conservation::of(&own, None);
         kept.under(&arena, &moving);
         let rotations = kept.whole.contains(&Candidate::TotalAngularMomentum)
             && keeps(Candidate::TotalAngularMomentum)
