@@ -107,6 +107,53 @@ fn difference(end: impl Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
     ((end(H) - end(-H)) * 8.0 - (end(2.0 * H) - end(-2.0 * H))) / (12.0 * H)
 }
 
+/// By a metric: a start that is held in the bases of its points moves in those in which the metric is the identity.
+#[test]
+fn metrics_have_sensitivities() {
+    #[affine_model(
+        dim = 2,
+        metrics(space = g, body = e),
+        kinetic(dalembert = 1, space_translation = m),
+        potential = tr(G)/2 - q + x[1]^2*phi[1,2]
+    )]
+    struct Measured {
+        g: Matrix<2>,
+        e: Matrix<2>,
+        m: f64,
+    }
+    let fields = |change: [f64; 3]| Measured {
+        g: Matrix::<2>::new(2.0 + change[0], 0.3, 0.3, 1.0),
+        e: Matrix::<2>::new(1.0, 0.2, 0.2, 1.5 + change[1]),
+        m: 1.3 + change[2],
+    };
+    let begun = |change: [f64; 3]| {
+        let model = fields(change).prepare().unwrap();
+        let (x, x_dot) = (Vector::<2>::new(0.3, -0.2), Vector::<2>::new(0.1, 0.2));
+        let (phi, phi_dot) = (Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(0.1, 0.4, -0.3, -0.2));
+        let start = model.at_velocity(x, phi, x_dot, phi_dot).unwrap();
+        (model, start)
+    };
+    let (model, start) = begun([0.0; 3]);
+    let found = Sensitivities::of(&fields([0.0; 3]), &model, (0.0, &start), 0.7, 1e-12).unwrap();
+    // m, then g row by row, then e.
+    for (column, change) in [(1, [1.0, 0.0, 0.0]), (8, [0.0, 1.0, 0.0]), (0, [0.0, 0.0, 1.0])] {
+        let at_velocity = difference(|h| {
+            let (model, start) = begun(change.map(|one| one * h));
+            end(&model, start)
+        });
+        let off = (found.by_fields_at_velocity.column(column) - at_velocity.transpose()).norm();
+        assert!(off < 1e-8 && at_velocity.norm() > 0.01, "{column}: {off:e}");
+        // The plain array of the start is held.
+        let plain = model.flatten(&start);
+        let by_array = difference(|h| {
+            let (model, _) = begun(change.map(|one| one * h));
+            end(&model, model.unflatten(&plain))
+        });
+        let off = (found.by_fields.column(column) - by_array.transpose()).norm();
+        assert!(off < 1e-8, "{column}: {off:e}");
+    }
+}
+
 /// Under constraints, that of a multiplier too: by fields where the velocity of the start is held, and by the velocity.
 #[test]
 fn constraints_have_sensitivities() {

@@ -66,14 +66,6 @@ fn columns<const N: usize, M: Model<N>>(
     DMatrix::from_columns(&(0..z.len()).map(column).collect::<Vec<_>>())
 }
 
-/// The potential contains the time.
-pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &Column) -> bool {
-    let still: M::Full<Dual<f64>> = fixed(z.as_slice());
-    // No time at which a sine or a cosine is flat.
-    let rates = model.hamilton_equations(Dual { value: 0.7310585786, slope: 1.0 }, &still);
-    rates.as_ref().iter().any(|rate| rate.slope != 0.0)
-}
-
 /// What vanishes on the phase points of a confined model.
 fn constraints<const N: usize, M: Model<N>, T: Real>(model: &M, full: &M::Full<T>) -> Vec<T> {
     let Some(constraint) = M::DESCRIPTION.constraint else { return Vec::new() };

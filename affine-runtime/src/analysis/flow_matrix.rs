@@ -165,9 +165,9 @@ pub struct Sensitivities {
     /// Of a constraint, along what it admits.
     pub by_velocity: DMatrix<f64>,
     /// By the fields in the order of [`Fields::FIELDS`], numbers before matrices, where the plain array of the start is held:
-    /// placement and momentum.
+    /// placement and momentum in bases in which the metrics are the identity.
     pub by_fields: DMatrix<f64>,
-    /// By the fields, where placement and velocity of the start are held.
+    /// By the fields, where placement and velocity of the start are held, in the bases of the user's points.
     pub by_fields_at_velocity: DMatrix<f64>,
 }
 
@@ -201,19 +201,27 @@ impl Sensitivities {
             by_fields.extend(flow.columns(coefficients.len()).column_iter().map(|one| one.into_owned()));
         }
         let by_fields = from_columns(own, &by_fields);
-        let slopes = field_slopes::<N, F>(model, &coefficients, t0, flow.start.as_slice());
+        let start = flow.start.as_slice();
+        let forced = field_slopes::<N, F>(model, &coefficients, t0, start);
         // Places and velocities by the plain array, and that by these.
-        let mut both = flow.jacobian.at(t0, flow.start.as_slice()).insert_rows(0, own, 0.0);
+        let mut both = flow.jacobian.at(t0, start).insert_rows(0, own, 0.0);
         both.rows_mut(0, own).fill_with_identity();
         let places = flow.positions();
         let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
         let inverse = both.select_rows(&rows).pseudo_inverse(RANK);
         let inverse = inverse.map_err(|_| AnalysisError::NoDecomposition)?;
+        // Bases in which the metrics are the identity change with them, and a place and a velocity that are held change in these.
+        let rates = model.hamilton_equations(t0, &full::<N, F::Prepared>(&flow.start));
+        let mut moving = flow.start.clone();
+        places.iter().for_each(|place| moving[*place] = rates.as_ref()[*place]);
+        let [turned, turned_rates] = [start, moving.as_slice()]
+            .map(|z| basis_slopes::<N, F>(model, &coefficients, z).select_rows(&places));
+        let mut held = turned.insert_rows(places.len(), places.len(), 0.0);
+        held.rows_mut(places.len(), places.len()).copy_from(&(turned_rates - forced.select_rows(&places)));
         flow.advance_to(t)?;
         let by_start = flow.matrix();
         let by_velocity = &by_start * inverse;
-        let by_rates = by_velocity.columns(places.len(), places.len());
-        let by_fields_at_velocity = &by_fields - by_rates * slopes.select_rows(&places);
+        let by_fields_at_velocity = &by_fields + &by_velocity * held;
         Ok(Self { by_start, by_velocity, by_fields, by_fields_at_velocity })
     }
 }
@@ -229,6 +237,21 @@ fn field_slopes<const N: usize, F: Fields<N>>(
     let slopes = coefficients.iter().flat_map(|own| {
         let rates = model.hamilton_equations_with(own, Dual::fixed(t), &still);
         rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
+    });
+    DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
+}
+
+/// The derivatives of a plain array by fields, in columns, where its components in the bases of the user's points are held.
+fn basis_slopes<const N: usize, F: Fields<N>>(
+    model: &F::Prepared,
+    coefficients: &[<F::Prepared as Parametric<N>>::Coefficients<Dual<f64>>],
+    z: &[f64],
+) -> DMatrix<f64> {
+    let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
+    let point = model.unflatten(&still);
+    let slopes = coefficients.iter().flat_map(|own| {
+        let moved = model.flatten_with(own, &point);
+        moved.as_ref().iter().map(|entry| entry.slope).collect::<Vec<_>>()
     });
     DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
 }

@@ -9,6 +9,7 @@ use super::field::{canonical_slopes, vector};
 use super::linear::{Column, Dense, RANK, decomposed, kernel};
 use super::relative::{Linearised, RelativeEquilibrium};
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::model::{Model, Velocity};
 use crate::state::Phase;
 
@@ -26,6 +27,8 @@ pub struct Modes<const N: usize> {
     pub zeros: usize,
     /// The placement at rest.
     pub rest: Matrix<N>,
+    /// Those in which the metrics are the identity.
+    bases: Option<Bases<N>>,
 }
 
 /// A frequency with its shapes.
@@ -41,7 +44,7 @@ pub struct Mode<const N: usize> {
     pub shapes: Vec<Velocity<N>>,
 }
 
-/// How a shape changes the body, in the principal axes of the deformation at rest.
+/// How a shape changes the body, in the principal axes of the deformation at rest; lengths and angles are those of the metrics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ModeClass {
@@ -110,20 +113,35 @@ impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
         let own = |k: usize| eigen.eigenvalues[k];
         let (zero, moving): (Vec<usize>, Vec<usize>) =
             order.into_iter().partition(|k| own(*k).abs() <= ALIKE * largest);
-        let frame = Frame::of(self.point.phi());
+        let bases = model.bases();
+        let frame = Frame::of(model.orthonormal::<f64>(&self.point).phi());
         let mode = |group: &[usize]| {
             let shapes: Vec<_> = group.iter().map(|k| shape(&vectors.column(*k).into_owned())).collect();
             Mode {
                 squared: group.iter().map(|k| own(*k)).sum::<f64>() / group.len() as f64,
                 error: 10.0 * f64::EPSILON * largest * group.len() as f64,
-                class: frame.class(&shapes),
+                class: frame
+                    .class(&shapes.iter().map(|shape| measured(bases.as_ref(), shape)).collect::<Vec<_>>()),
                 shapes,
             }
         };
         let alike = |a: &usize, b: &usize| (own(*a) - own(*b)).abs() <= ALIKE * largest;
         let modes = moving.chunk_by(alike).map(mode).collect();
-        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi() })
+        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi(), bases })
     }
+}
+
+impl<const N: usize> Modes<N> {
+    /// The placement at rest with a shape, in bases in which the metrics are the identity.
+    pub(super) fn measured(&self, shape: &Velocity<N>) -> (Matrix<N>, Velocity<N>) {
+        let bases = self.bases.as_ref();
+        (bases.map_or(self.rest, |bases| bases.placement(&self.rest)), measured(bases, shape))
+    }
+}
+
+/// A shape in bases in which the metrics are the identity.
+fn measured<const N: usize>(bases: Option<&Bases<N>>, shape: &Velocity<N>) -> Velocity<N> {
+    bases.map_or(*shape, |bases| bases.velocity(shape))
 }
 
 /// `M` and `K` over the places, from `q' = A_qp p` and `p' = A_pq q`.

@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{
-    confinement, depends_on_time, determinant, full, linear_motion, motion, normals, orbit, symplectic_form,
-    vector,
+    confinement, determinant, full, linear_motion, motion, normals, orbit, symplectic_form, vector,
 };
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
+use super::jacobian::JacobianMatrix;
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
 use super::newton::{Equations, FLOOR, Solution, solve};
 use crate::model::{Model, Quantity};
@@ -110,14 +110,21 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
     conditions.iter().try_for_each(|condition| condition.assert_among(generators.len()))?;
     let z = vector(&model.flatten(guess));
-    if depends_on_time(model, &z) {
-        return Err(AnalysisError::DependsOnTime);
-    }
+    assert_timeless(model, guess)?;
     let velocities = solved(&orbit(model, generators, &z), &motion(model, &z))?;
     let problem = Problem { model, generators, conditions };
     let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().chain(&velocities).copied());
     let solution = solve(start, FLOOR, |unknowns| problem.equations(unknowns))?;
     Ok(problem.relative_equilibrium(&solution))
+}
+
+/// Checks that the equations do not contain the time.
+pub(super) fn assert_timeless<const N: usize, M: Model<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+) -> Result<(), AnalysisError> {
+    let is_timeless = !JacobianMatrix::of(model, 0.0, point).contains_time();
+    is_timeless.then_some(()).ok_or(AnalysisError::DependsOnTime)
 }
 
 /// An orthonormal basis of the directions in which solutions go on, without those of symmetries: the kernel of a Jacobian by the

@@ -12,6 +12,8 @@ use crate::model::Model;
 
 /// A part of a second variation by which it may fail to be symmetric.
 const ASYMMETRY: f64 = 1e-9;
+/// Part of the largest stiffness that may be rounding.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Sections of an interval in the search for a definite second variation.
 const SECTIONS: usize = 60;
 /// Rounds of that search over the generators of an isotropy group.
@@ -113,14 +115,24 @@ impl<const N: usize> Stability<N> {
         self.eigenvalues.iter().copied().max_by(|a, b| a.value.re.total_cmp(&b.value.re))
     }
 
-    /// The square of the difference of the two eigenvalues nearest to where a growing one oscillates: negative while both are
-    /// frequencies, positive where they grow and fall, smooth between.
-    pub(super) fn discriminant(&self, growing: Complex<f64>) -> Option<f64> {
+    /// The two eigenvalues nearest to where a growing one oscillates.
+    pub(super) fn nearest(&self, growing: Complex<f64>) -> Option<[Eigenvalue; 2]> {
         let target = Complex::new(0.0, growing.im);
-        let mut near: Vec<Complex<f64>> = self.eigenvalues.iter().map(|one| one.value).collect();
-        near.sort_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm()));
-        let [a, b, ..] = near.as_slice() else { return None };
-        Some((a - b).powi(2).re)
+        let mut near = self.eigenvalues.clone();
+        near.sort_by(|a, b| (a.value - target).norm().total_cmp(&(b.value - target).norm()));
+        near.first_chunk().copied()
+    }
+
+    /// The square of their difference: negative while both are frequencies, positive where they grow and fall, smooth between.
+    pub(super) fn discriminant(&self, growing: Complex<f64>) -> Option<f64> {
+        self.nearest(growing).map(|[a, b]| (a.value - b.value).powi(2).re)
+    }
+
+    /// The stiffnesses; what rounding leaves of one that vanishes is zero.
+    pub(super) fn rounded_stiffnesses(&self) -> impl Iterator<Item = f64> + '_ {
+        let largest = self.stiffnesses.iter().fold(0.0_f64, |largest, one| largest.max(one.abs()));
+        let is_some = move |one: f64| one.abs() > ROUNDING * largest;
+        self.stiffnesses.iter().map(move |one| if is_some(*one) { *one } else { 0.0 })
     }
 }
 
