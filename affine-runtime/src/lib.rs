@@ -142,6 +142,8 @@ pub mod capability {
 /// What of the other crates is for this one alone.
 mod inner {
     pub(crate) use affine_core::__private::numerics::*;
+    #[cfg(feature = "analysis")]
+    pub(crate) use affine_core::__private::projected;
     #[cfg(feature = "std")]
     pub(crate) use affine_core::__private::{Unconstrained, gathered};
     #[cfg(feature = "std")]

@@ -6,11 +6,12 @@ use super::branch::{Branch, BranchPoint, Special};
 use super::error::AnalysisError;
 use super::field::vector;
 use super::generator::{Generator, confined};
-use super::linear::{Column, Dense, decomposed, kernel};
+use super::linear::{Column, Dense, kernel};
 use super::newton::{Equations, FLOOR, Solution, solve};
 use super::relative::{Condition, DEGENERATE, Problem, assert_timeless, free, relative_equilibrium};
 use super::spectrum::Eigenvalue;
 use super::stability::StabilityVerdict;
+use crate::decompose::TwoPolar;
 use crate::error::Error;
 use crate::model::Model;
 use crate::state::Phase;
@@ -166,14 +167,11 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         let last = unknowns.len() - 1;
         let (model, conditions) = (self.family)(unknowns[last])?;
         let problem = self.problem(&model, &conditions);
-        let own = unknowns.rows(0, last).into_owned();
-        let residual = problem.values(&own).map_or(f64::NAN, |values| values.norm());
-        let turn = problem.relative_equilibrium(&Solution { at: own, residual, steps: 0 });
+        let turn = problem.relative_equilibrium(&unknowns.rows(0, last).into_owned(), 0);
         assert_timeless(&model, &turn.point)?;
         let stability = turn.stability(&model)?;
         let phi = *model.orthonormal::<f64>(&turn.point).phi();
-        let svd = decomposed(DMatrix::from_fn(N, N, |i, a| phi[(i, a)]));
-        let stretches = svd.map_or(Vec::new(), |svd| svd.singular_values.iter().copied().collect());
+        let stretches = TwoPolar::of(&phi)?.stretches.iter().copied().collect();
         Ok(BranchPoint { parameter: unknowns[last], turn, stability, stretches, unknowns, tangent })
     }
 
@@ -187,9 +185,18 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
     fn followed(&self, start: At<N, M>) -> Result<Branch<N, <M as Model<N>>::Point<f64>>, AnalysisError> {
         let mut branch = Branch { points: Vec::new(), special: Vec::new(), ended: None };
         let (mut now, mut step) = (start, self.step);
-        while self.goes_on(&now) && branch.points.len() < MOST_POINTS {
-            let next = self.next(&now, step).filter(|next| next.tangent.dot(&now.tangent) > STRAIGHT);
-            let Some(next) = next else {
+        while branch.points.len() < MOST_POINTS {
+            let rise = step * now.tangent[now.tangent.len() - 1];
+            let end = self.end(now.parameter + rise, rise, SHORTEST * step);
+            if end.is_some_and(|end| (end - now.parameter) * rise <= 0.0) {
+                break;
+            }
+            let next = end.map_or_else(|| self.beyond(&now, step, FLOOR).ok(), |end| self.at_end(&now, end));
+            let is_next = |next: &At<N, M>| {
+                let is_outside = self.end(next.parameter, next.parameter - now.parameter, 0.0).is_some();
+                (end.is_some() || !is_outside) && next.tangent.dot(&now.tangent) > STRAIGHT
+            };
+            let Some(next) = next.filter(is_next) else {
                 step *= 0.5;
                 if step < SHORTEST * self.step {
                     branch.ended = Some(self.end_after(&now, step));
@@ -206,37 +213,20 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         Ok(branch)
     }
 
-    /// The range has not ended at a point.
-    fn goes_on(&self, at: &At<N, M>) -> bool {
-        let ((low, high), rise) = (self.range, at.tangent[at.tangent.len() - 1]);
-        let is_inside = low < at.parameter && at.parameter < high;
-        is_inside
-            || (at.parameter == low && rise >= 0.0 && low < high)
-            || (at.parameter == high && rise < 0.0)
-    }
-
-    /// The point a step further, or where the range ends before.
-    fn next(&self, now: &At<N, M>, step: f64) -> Option<At<N, M>> {
-        let ((low, high), margin) = (self.range, SHORTEST * step);
-        let ends = |unknowns: &Column| {
-            let parameter = unknowns[unknowns.len() - 1];
-            let (falls, rises) = (parameter < now.parameter, parameter > now.parameter);
-            (falls && parameter <= low + margin) || (rises && parameter >= high - margin)
-        };
-        let predicted = &now.unknowns + &now.tangent * step;
-        if ends(&predicted) {
-            return self.at_end(now, &predicted);
+    /// The end of the range, where a parameter that rises or falls so is there or beyond.
+    fn end(&self, parameter: f64, rise: f64, margin: f64) -> Option<f64> {
+        let (low, high) = self.range;
+        match rise {
+            rise if rise > 0.0 && parameter >= high - margin => Some(high),
+            rise if rise < 0.0 && parameter <= low + margin => Some(low),
+            _ => None,
         }
-        let next = self.beyond(now, step, FLOOR).ok()?;
-        if ends(&next.unknowns) { self.at_end(now, &next.unknowns) } else { Some(next) }
     }
 
-    /// The point at the end of the range on the way to unknowns there or beyond.
-    fn at_end(&self, now: &At<N, M>, beyond: &Column) -> Option<At<N, M>> {
-        let last = beyond.len() - 1;
-        let rise = beyond[last] - now.parameter;
-        let end = if rise > 0.0 { self.range.1 } else { self.range.0 };
-        let mut from = &now.unknowns + (beyond - &now.unknowns) * ((end - now.parameter) / rise);
+    /// The point at an end of the range near to the tangent at another.
+    fn at_end(&self, now: &At<N, M>, end: f64) -> Option<At<N, M>> {
+        let last = now.unknowns.len() - 1;
+        let mut from = &now.unknowns + &now.tangent * ((end - now.parameter) / now.tangent[last]);
         from[last] = end;
         let axis = Column::from_fn(last + 1, |k, _| f64::from(u8::from(k == last)));
         let mut unknowns = self.corrected(&from, &axis, (0.0, FLOOR)).ok()?.at;
@@ -249,25 +239,18 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
 
     /// Why no step leads on.
     fn end_after(&self, last: &At<N, M>, step: f64) -> AnalysisError {
-        let rise = self.step * last.tangent[last.tangent.len() - 1];
-        match (self.family)((last.parameter + rise).max(self.range.0).min(self.range.1)) {
-            Err(error) => error.into(),
-            Ok((model, _)) => {
-                let timeless = assert_timeless(&model, &last.turn.point);
-                timeless.err().unwrap_or(AnalysisError::StepUnderflow { step })
-            }
-        }
+        let ahead = last.parameter + self.step * last.tangent[last.tangent.len() - 1];
+        let family = (self.family)(ahead.max(self.range.0).min(self.range.1)).map_err(AnalysisError::from);
+        let known = family.and_then(|(model, _)| assert_timeless(&model, &last.turn.point));
+        known.err().unwrap_or(AnalysisError::StepUnderflow { step })
     }
 
     /// What is special between two points; what is not located is left out.
     fn special(&self, a: &At<N, M>, b: &At<N, M>, distance: f64) -> Vec<(Special, At<N, M>)> {
         let last = a.unknowns.len() - 1;
         let negative = |at: &At<N, M>| at.stability.rounded_stiffnesses().filter(|one| *one < 0.0).count();
+        let grows = |at: &At<N, M>| matches!(at.stability.verdict, StabilityVerdict::Unstable { .. });
         let mode = negative(a).min(negative(b));
-        let growth = [a, b].map(|point| match point.stability.verdict {
-            StabilityVerdict::Unstable { .. } => point.stability.fastest(),
-            _ => None,
-        });
         let mut found = Vec::new();
         let between = |h: f64| match h {
             0.0 => Some(a.clone()),
@@ -285,20 +268,17 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
         if negative(a) != negative(b) && !turns {
             locate(Special::Bifurcation, &|point| point.stability.rounded_stiffnesses().nth(mode));
         }
-        if let [None, Some(fastest)] | [Some(fastest), None] = growth {
-            let oscillates = fastest.value.im.abs() > fastest.error;
+        let (quiet, loud) = if grows(a) { (b, a) } else { (a, b) };
+        if let Some(fastest) = loud.stability.fastest().filter(|_| grows(a) != grows(b)) {
             let damped: Value<'_, N, M> = &|point| point.stability.fastest().map(Eigenvalue::rate);
             let meeting: Value<'_, N, M> = &|point| point.stability.discriminant(fastest.value);
-            let quiet = if growth[0].is_none() { a } else { b };
-            let meet = quiet
-                .stability
-                .nearest(fastest.value)
-                .is_some_and(|two| two.map(Eigenvalue::rate) == [0.0; 2]);
-            match (a.stability.signature.is_some(), oscillates) {
-                (_, true) if meet => locate(Special::Collision, meeting),
-                (_, true) => locate(Special::Hopf, damped),
-                (false, false) if !turns => locate(Special::Bifurcation, if meet { meeting } else { damped }),
-                _ => {}
+            let near = quiet.stability.nearest(fastest.value).map(|near| near.map(Eigenvalue::rate));
+            let (meet, oscillates) = (near == Some([0.0; 2]), fastest.value.im.abs() > fastest.error);
+            match (meet, oscillates) {
+                (true, true) => locate(Special::Collision, meeting),
+                (false, true) => locate(Special::Hopf, damped),
+                _ if a.stability.signature.is_some() || turns => {}
+                _ => locate(Special::Bifurcation, if meet { meeting } else { damped }),
             }
         }
         found

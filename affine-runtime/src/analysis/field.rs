@@ -4,8 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::generator::Generator;
 use super::linear::{Column, Dense, from_columns};
+use crate::decompose::LinearMap;
 use crate::dual::{Dual, fixed};
 use crate::frames::Matrix;
+use crate::inner::projected;
 use crate::model::{Constraint, Model, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
@@ -71,27 +73,13 @@ fn constraints<const N: usize, M: Model<N>, T: Real>(model: &M, full: &M::Full<T
     let Some(constraint) = M::DESCRIPTION.constraint else { return Vec::new() };
     let point = model.orthonormal(&model.unflatten(full));
     let phi = *point.phi();
-    let green = phi.transpose() * phi;
-    let mean = green.trace() / T::constant(N as f64, 0.0);
-    let pairs = || (0..N).flat_map(|a| (0..a).map(move |b| (a, b)));
-    let mut values: Vec<T> = match constraint {
-        Constraint::Isochoric => vec![determinant(&phi) - T::one()],
-        Constraint::Rigid => (0..N).map(|a| green[(a, a)] - T::one()).collect(),
-        Constraint::Conformal => (1..N).map(|a| green[(a, a)] - mean).collect(),
+    let green = phi.tr_mul(&phi);
+    let defect = match constraint {
+        Constraint::Isochoric => return vec![phi.mean_log_stretch()],
+        Constraint::Rigid => green - Matrix::<N, T>::identity(),
+        Constraint::Conformal => green - projected(constraint, &green),
     };
-    if constraint != Constraint::Isochoric {
-        values.extend(pairs().map(|(a, b)| green[(a, b)]));
-    }
-    values
-}
-
-/// A determinant in any numbers.
-pub(super) fn determinant<const N: usize, T: Real>(phi: &Matrix<N, T>) -> T {
-    let minor = |a: usize, b: usize| phi[(N - 2, a)] * phi[(N - 1, b)] - phi[(N - 2, b)] * phi[(N - 1, a)];
-    match N {
-        2 => minor(0, 1),
-        _ => phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1),
-    }
+    (0..N).flat_map(|a| (0..=a).map(move |b| (a, b))).map(|place| defect[place]).collect()
 }
 
 /// Values of the constraints.

@@ -193,16 +193,19 @@ impl Sensitivities {
         let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
         let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
         let (own, mut by_fields) = (flow.start.len(), Vec::new());
+        let forced = |coefficients: &[_], t: f64, z: &[f64]| {
+            let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
+            slopes_by(coefficients, own, |c| model.hamilton_equations_with(c, Dual::fixed(t), &still))
+        };
         // As many at once as the state has components.
         for coefficients in coefficients.chunks(own) {
             let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
             flow.set(&DMatrix::zeros(0, 0));
-            flow.advance(t, |t, z| field_slopes::<N, F>(model, coefficients, t, z.as_ref()))?;
+            flow.advance(t, |t, z| forced(coefficients, t, z.as_ref()))?;
             by_fields.extend(flow.columns(coefficients.len()).column_iter().map(|one| one.into_owned()));
         }
         let by_fields = from_columns(own, &by_fields);
         let start = flow.start.as_slice();
-        let forced = field_slopes::<N, F>(model, &coefficients, t0, start);
         // Places and velocities by the plain array, and that by these.
         let mut both = flow.jacobian.at(t0, start).insert_rows(0, own, 0.0);
         both.rows_mut(0, own).fill_with_identity();
@@ -214,10 +217,13 @@ impl Sensitivities {
         let rates = model.hamilton_equations(t0, &full::<N, F::Prepared>(&flow.start));
         let mut moving = flow.start.clone();
         places.iter().for_each(|place| moving[*place] = rates.as_ref()[*place]);
-        let [turned, turned_rates] = [start, moving.as_slice()]
-            .map(|z| basis_slopes::<N, F>(model, &coefficients, z).select_rows(&places));
+        let [turned, turned_rates] = [start, moving.as_slice()].map(|z| {
+            let point = model.unflatten(&fixed(z));
+            slopes_by(&coefficients, own, |c| model.flatten_with(c, &point)).select_rows(&places)
+        });
         let mut held = turned.insert_rows(places.len(), places.len(), 0.0);
-        held.rows_mut(places.len(), places.len()).copy_from(&(turned_rates - forced.select_rows(&places)));
+        let rates = turned_rates - forced(&coefficients, t0, start).select_rows(&places);
+        held.rows_mut(places.len(), places.len()).copy_from(&rates);
         flow.advance_to(t)?;
         let by_start = flow.matrix();
         let by_velocity = &by_start * inverse;
@@ -226,34 +232,15 @@ impl Sensitivities {
     }
 }
 
-/// The derivatives of the rates by fields, in columns.
-fn field_slopes<const N: usize, F: Fields<N>>(
-    model: &F::Prepared,
-    coefficients: &[<F::Prepared as Parametric<N>>::Coefficients<Dual<f64>>],
-    t: f64,
-    z: &[f64],
+/// The derivatives of a function of coefficients, over the plain array, by fields in columns.
+fn slopes_by<C, S: AsRef<[Dual<f64>]>>(
+    coefficients: &[C],
+    rows: usize,
+    of: impl Fn(&C) -> S,
 ) -> DMatrix<f64> {
-    let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
-    let slopes = coefficients.iter().flat_map(|own| {
-        let rates = model.hamilton_equations_with(own, Dual::fixed(t), &still);
-        rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
-    });
-    DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
-}
-
-/// The derivatives of a plain array by fields, in columns, where its components in the bases of the user's points are held.
-fn basis_slopes<const N: usize, F: Fields<N>>(
-    model: &F::Prepared,
-    coefficients: &[<F::Prepared as Parametric<N>>::Coefficients<Dual<f64>>],
-    z: &[f64],
-) -> DMatrix<f64> {
-    let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
-    let point = model.unflatten(&still);
-    let slopes = coefficients.iter().flat_map(|own| {
-        let moved = model.flatten_with(own, &point);
-        moved.as_ref().iter().map(|entry| entry.slope).collect::<Vec<_>>()
-    });
-    DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
+    let slopes =
+        coefficients.iter().flat_map(|own| of(own).as_ref().iter().map(|one| one.slope).collect::<Vec<_>>());
+    DMatrix::from_iterator(rows, coefficients.len(), slopes)
 }
 
 /// Lyapunov exponents of a motion over a time, from the largest, in the norm of the plain array.

@@ -8,8 +8,9 @@ use super::linear::{Column, from_columns, solved};
 
 use crate::dual::{Dual, fixed};
 use crate::frames::{Matrix, Vector};
+use crate::inner::projected;
 use crate::metrics::Bases;
-use crate::model::{Conserved, Constraint, Description, Entry, Model, Quantity, StateVector};
+use crate::model::{Conserved, Description, Entry, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -182,13 +183,8 @@ pub(super) fn assert_symmetry<const N: usize>(
 
 /// What leaves the group to which the motion is confined is left out, and what moves a centre of mass that the model has not.
 pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) -> Generator<N> {
-    let skew = |matrix: &Matrix<N>| (matrix - matrix.transpose()) * 0.5;
-    let mean = |matrix: &Matrix<N>| Matrix::<N>::identity() * (matrix.trace() / N as f64);
-    let kept = |matrix: &Matrix<N>| match M::DESCRIPTION.constraint {
-        None => *matrix,
-        Some(Constraint::Isochoric) => matrix - mean(matrix),
-        Some(Constraint::Rigid) => skew(matrix),
-        Some(Constraint::Conformal) => skew(matrix) + mean(matrix),
+    let kept = |matrix: &Matrix<N>| {
+        M::DESCRIPTION.constraint.map_or(*matrix, |constraint| projected(constraint, matrix))
     };
     let (space, body) = (kept(&generator.space), kept(&generator.body));
     match place(&M::DESCRIPTION, Quantity::Position).is_some() {

@@ -2,12 +2,11 @@
 
 use core::fmt;
 
-use nalgebra::{DMatrix, SVD};
-
 use super::error::AnalysisError;
 use super::field::{canonical_slopes, vector};
-use super::linear::{Column, Dense, RANK, decomposed, kernel};
+use super::linear::{Column, Dense, RANK, kernel};
 use super::relative::{Linearised, RelativeEquilibrium};
+use crate::decompose::TwoPolar;
 use crate::frames::{Matrix, Vector};
 use crate::metrics::Bases;
 use crate::model::{Model, Velocity};
@@ -177,22 +176,14 @@ struct Frame<const N: usize> {
 impl<const N: usize> Frame<N> {
     fn of(phi: &Matrix<N>) -> Self {
         let near = |a: f64, b: f64| (a - b).abs() <= STRAY * (a + b);
-        let dense = DMatrix::from_fn(N, N, |i, a| phi[(i, a)]);
         let round =
             |size: f64| Self { left: phi / size, right: Matrix::<N>::identity(), axis: None, is_round: true };
-        let Some(SVD { u: Some(u), v_t: Some(v_t), singular_values: own }) = decomposed::<f64>(dense) else {
-            return round(1.0);
-        };
+        let Ok(TwoPolar { left, stretches: own, right }) = TwoPolar::of(phi) else { return round(1.0) };
         if (1..N).all(|a| near(own[a], own[0])) {
             return round(own[0]);
         }
         let is_axis = |c: usize| N == 3 && near(own[(c + 1) % N], own[(c + 2) % N]);
-        Self {
-            left: Matrix::<N>::from_fn(|i, a| u[(i, a)]),
-            right: Matrix::<N>::from_fn(|i, a| v_t[(a, i)]),
-            axis: (0..N).find(|c| is_axis(*c)),
-            is_round: false,
-        }
+        Self { left, right, axis: (0..N).find(|c| is_axis(*c)), is_round: false }
     }
 
     /// The class that has all of the shapes.

@@ -3,13 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{
-    confinement, determinant, full, linear_motion, motion, normals, orbit, symplectic_form, vector,
-};
+use super::field::{confinement, full, linear_motion, motion, normals, orbit, symplectic_form, vector};
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
 use super::jacobian::JacobianMatrix;
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
-use super::newton::{Equations, FLOOR, Solution, solve};
+use super::newton::{Equations, FLOOR, solve};
+use crate::inner::LogDeterminant;
 use crate::model::{Model, Quantity};
 use crate::state::Phase;
 
@@ -115,7 +114,7 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     let problem = Problem { model, generators, conditions };
     let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().chain(&velocities).copied());
     let solution = solve(start, FLOOR, |unknowns| problem.equations(unknowns))?;
-    Ok(problem.relative_equilibrium(&solution))
+    Ok(problem.relative_equilibrium(&solution.at, solution.steps))
 }
 
 /// Checks that the equations do not contain the time.
@@ -158,7 +157,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     pub(super) fn values(&self, unknowns: &Column) -> Option<Column> {
         let (z, velocities) = self.split(unknowns);
         let point = self.model.unflatten(&full::<N, M>(&z));
-        if determinant(point.phi()) <= 0.0 {
+        if !LogDeterminant::of(point.phi()).is_positive() {
             return None;
         }
         let field = self.zeta(&velocities).field(self.model, &full::<N, M>(&z));
@@ -227,19 +226,23 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
         scale
     }
 
-    pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
-        let (z, velocities) = self.split(&solution.at);
-        let kernel = self
-            .equations(&solution.at)
-            .map_or(0, |own| free(self.model, &z, &own.jacobian, DEGENERATE).ncols());
+    pub(super) fn relative_equilibrium(
+        &self,
+        at: &Column,
+        steps: usize,
+    ) -> RelativeEquilibrium<N, M::Point<f64>> {
+        let (z, velocities) = self.split(at);
+        let (residual, kernel) = self.equations(at).map_or((f64::NAN, 0), |own| {
+            (own.values.norm(), free(self.model, &z, &own.jacobian, DEGENERATE).ncols())
+        });
         RelativeEquilibrium {
             kernel,
             expected: self.generators.len().saturating_sub(self.conditions.len()),
             point: self.model.unflatten(&full::<N, M>(&z)),
             zeta: self.zeta(&velocities),
             velocities,
-            residual: solution.residual,
-            steps: solution.steps,
+            residual,
+            steps,
         }
     }
 }
