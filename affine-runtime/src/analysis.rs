@@ -26,6 +26,7 @@ mod pictures;
 mod relative;
 mod spectrum;
 mod stability;
+mod symmetry;
 mod tape;
 
 pub use branch::{Branch, BranchPoint, Special};

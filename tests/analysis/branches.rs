@@ -261,6 +261,35 @@ fn stretches_of_branches_are_those_of_the_metrics() {
     assert!(branch.to_string().contains("stretches [1.051183886, 1.051183886]"), "{branch}");
 }
 
+/// Viscosity that rests in a body that turns changes neither the branch nor where it loses its stiffness: there it becomes unstable.
+#[test]
+fn viscous_discs_branch_where_others_do() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = hyperbolic_dilatation(4) + neo_hookean(0.05),
+        dissipation(space_inertia = 0.05, casimir2 = 0.05)
+    )]
+    struct Viscous;
+    let family = |spin: f64| Ok((Viscous, vec![Condition::MomentumMap(0, spin)]));
+    let guess = Viscous.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let branch = Continuation::new(&turn, (0.01, 0.8), 0.1, family).run(&guess, 0.01).unwrap();
+    let [(Special::Bifurcation, point)] = branch.special.as_slice() else { panic!("{branch}") };
+    assert!((point.parameter - 0.6648270638631039).abs() < 1e-9, "{branch}");
+    let (first, last) = (&branch.points[0], branch.points.last().unwrap());
+    assert_eq!(first.stability.verdict, StabilityVerdict::Stable);
+    assert!(matches!(last.stability.verdict, StabilityVerdict::Unstable { .. }));
+    // The elongated discs of the branch without friction.
+    let far = Continuation::new(&turn, (0.0, 1.0), 0.1, family).switch(point, 0.05).unwrap();
+    for point in &far.points {
+        let q = point.stretches();
+        let sum = (q[0] * q[0] + q[1] * q[1]) / 2.0;
+        assert!((sum - 4.0 / 0.8 * ((q[0] * q[1]).powi(2) - 1.0)).abs() < 1e-11, "{q:?}");
+        assert_eq!(point.stability.verdict, StabilityVerdict::Stable, "{q:?}");
+    }
+}
+
 /// Where two branches cross there is no single continuation.
 #[test]
 fn crossings_are_no_starts() {

@@ -281,6 +281,16 @@ impl<const N: usize, M: Model<N>, F: Fn(f64) -> Result<(M, Vec<Condition>), Erro
                 _ => locate(Special::Bifurcation, if meet { meeting } else { damped }),
             }
         }
+        // Where an oscillation begins to grow it goes on.
+        for (kind, point) in found.iter_mut().filter(|(kind, _)| *kind == Special::Hopf) {
+            let (own, there) = (point.stability.fastest(), loud.stability.fastest());
+            if own
+                .zip(there)
+                .is_some_and(|(own, there)| own.value.im.abs() <= RANK_AT_BRANCH_POINT * there.value.im.abs())
+            {
+                *kind = Special::Bifurcation;
+            }
+        }
         found
     }
 }

@@ -8,7 +8,7 @@ use crate::decompose::LinearMap;
 use crate::dual::{Dual, fixed};
 use crate::frames::Matrix;
 use crate::inner::projected;
-use crate::model::{Constraint, Model, StateVector};
+use crate::model::{Constraint, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -60,12 +60,49 @@ fn columns<const N: usize, M: Model<N>>(
     z: &Column,
     map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
 ) -> Dense {
-    let column = |k: usize| {
-        let mut varied: M::Full<Dual<f64>> = fixed(z.as_slice());
-        varied.as_mut()[k].slope = 1.0;
-        DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
-    };
-    DMatrix::from_columns(&(0..z.len()).map(column).collect::<Vec<_>>())
+    let axes = Dense::identity(z.len(), z.len());
+    let columns = axes.column_iter().map(|axis| slope_along::<N, M>(z, &axis.into_owned(), &map));
+    DMatrix::from_columns(&columns.collect::<Vec<_>>())
+}
+
+/// The derivative of a map from plain arrays along a direction.
+pub(super) fn slope_along<const N: usize, M: Model<N>>(
+    z: &Column,
+    direction: &Column,
+    map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
+) -> Column {
+    let mut varied: M::Full<Dual<f64>> = fixed(z.as_slice());
+    varied.as_mut().iter_mut().zip(direction.iter()).for_each(|(entry, slope)| entry.slope = *slope);
+    DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
+}
+
+/// Where places and momenta are in the plain array.
+pub(super) struct Kinds {
+    pub(super) places: Vec<usize>,
+    pub(super) momenta: Vec<usize>,
+}
+
+impl Kinds {
+    pub(super) fn of<const N: usize, M: Model<N>>() -> Self {
+        let is_place = |quantity| matches!(quantity, Quantity::Position | Quantity::Placement);
+        let groups = M::DESCRIPTION.full.iter();
+        let all = groups.flat_map(|group| vec![is_place(group.quantity); group.len]).enumerate();
+        let (places, momenta): (Vec<_>, Vec<_>) = all.partition(|(_, is_place)| *is_place);
+        let [places, momenta] = [places, momenta].map(|kind| kind.into_iter().map(|(k, _)| k).collect());
+        Self { places, momenta }
+    }
+
+    /// By what momenta change a motion, and places its momenta.
+    pub(super) fn slopes(&self, jacobian: &Dense) -> [f64; 2] {
+        [(&self.places, &self.momenta), (&self.momenta, &self.places)]
+            .map(|(rows, columns)| jacobian.select_rows(rows).select_columns(columns).norm())
+    }
+
+    /// How large momenta are that belong to places of size 1, by the masses and the stiffnesses, where there are both.
+    pub(super) fn momentum(&self, jacobian: &Dense) -> Option<f64> {
+        let [by_mass, stiffness] = self.slopes(jacobian);
+        (by_mass > 0.0 && stiffness > 0.0).then(|| (stiffness / by_mass).sqrt())
+    }
 }
 
 /// What vanishes on the phase points of a confined model.

@@ -130,14 +130,18 @@ impl<const N: usize> Generator<N> {
         let varied: M::Full<Dual<T>> = fixed(full.as_ref());
         let varied = model.orthonormal(&model.unflatten(&varied));
         let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(Dual::zero));
-        let one = Matrix::<N>::identity();
-        let bases = model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)));
-        let moved = <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases.over());
+        let moved = <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases(model).over());
         let mut rates = M::Full::<T>::zeros();
         let moved = model.flatten(&moved);
         rates.as_mut().iter_mut().zip(moved.as_ref()).for_each(|(rate, both)| *rate = both.slope);
         rates
     }
+}
+
+/// Bases in which the metrics are the identity.
+pub(super) fn bases<const N: usize, M: Model<N>>(model: &M) -> Bases<N> {
+    let one = Matrix::<N>::identity();
+    model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)))
 }
 
 /// Where a quantity begins in the plain array.
@@ -154,6 +158,13 @@ fn skew<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 /// `E_ij`, numbered from 1.
 fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
     Matrix::<N>::from_fn(|row, column| f64::from(u8::from((row + 1, column + 1) == (i, j))))
+}
+
+/// What turns and moves space, the body and its centre.
+pub(super) fn isometries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
+    use Conserved::{LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity};
+    let all = [LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity].into_iter().flat_map(generators::<N>);
+    all.map(|generator| confined::<N, M>(&generator)).collect()
 }
 
 /// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.

@@ -148,10 +148,13 @@ struct Slice {
 impl Slice {
     fn of<const N: usize>(at: &Linearised<N>) -> Self {
         let keeping = kernel(&at.orbit.tr_mul(&at.form), RANK);
-        let moments = at.orbit.tr_mul(&at.form) * &at.orbit;
-        let size = (at.orbit.norm() * at.orbit.norm() * at.form.norm()).max(f64::MIN_POSITIVE);
-        let stays = absolute_kernel(&moments, RANK * size);
-        let along = span(&keeping.tr_mul(&(&at.orbit * &stays)), RANK);
+        let keeps = |orbit: &Dense| {
+            let size = (at.orbit.norm() * orbit.norm() * at.form.norm()).max(f64::MIN_POSITIVE);
+            absolute_kernel(&(at.orbit.tr_mul(&at.form) * orbit), RANK * size)
+        };
+        let stays = keeps(&at.orbit);
+        let along = keeping.tr_mul(&(&at.moved * keeps(&at.moved)));
+        let along = span(&along, RANK * (at.size + at.moved.norm()));
         let columns = &keeping * kernel(&along.transpose(), RANK);
         Self { columns, along_orbit: along.ncols(), is_compact: is_compact(&at.symmetries, &stays) }
     }
