@@ -82,7 +82,7 @@ fn friction_leaves_symmetries() {
         let branch = Continuation::new(&[], (1.0, 1.5), 0.2, family).run(&guess, 1.0).unwrap();
         assert_eq!((branch.special.len(), branch.ended), (0, None), "{r}");
     }
-    // One that the friction leaves no symmetry of: a current drags the disc the more along one axis.
+    // Friction by the axes of the body leaves turns of space. What is held has no symmetry, and a slow motion in its place.
     #[affine_model(
         dim = 2,
         kinetic(dalembert = 1),
@@ -92,13 +92,64 @@ fn friction_leaves_symmetries() {
     struct Held {
         h: f64,
     }
-    for (h, kernel) in [(0.0, 1), (1e-3, 0)] {
+    for (h, stays) in [(0.0, 7), (1e-3, 8)] {
         let model = Held { h }.prepare().unwrap();
         let guess = model.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
-        let rest = equilibrium(&model, &guess).unwrap();
-        let neutral =
-            rest.stability(&model).unwrap().eigenvalues.iter().filter(|one| one.value.norm() < 1e-7).count();
-        assert_eq!((rest.kernel, neutral), (0, 0), "{h}: {kernel}");
+        let stability = equilibrium(&model, &guess).unwrap().isolated().unwrap().stability(&model).unwrap();
+        assert_eq!(
+            (stability.verdict, stability.eigenvalues.len()),
+            (StabilityVerdict::Stable, stays),
+            "{h}"
+        );
+    }
+}
+
+/// Geodesics that are left-invariant in space: what keeps the momentum of a turn stretches along its axis, and not only a plane. A
+/// neighbour of the turn of space is torn apart, `det phi` kept.
+#[test]
+fn turns_that_stretch_are_not_called_stable() {
+    #[affine_model(dim = 3, kinetic(casimir2 = 0.2, body_inertia = 1))]
+    struct Torn;
+    let turn = Generator::<3>::rotation(1, 2);
+    let start = Torn.at_velocity(Matrix::<3>::identity(), turn.space).unwrap();
+    let found = relative_equilibrium(&Torn, &start, &[turn], &[Condition::Velocity(0, 1.0)]).unwrap();
+    let stability = found.stability(&Torn).unwrap();
+    assert_eq!(stability.verdict, StabilityVerdict::Undecided(Doubt::NonCompact));
+    let aside = Matrix::<3>::new(0.3, 0.2, 0.1, -0.1, 0.2, 0.4, 0.3, -0.2, -0.5) * 0.01;
+    let near = Torn.at_velocity(Matrix::<3>::identity(), turn.space + aside).unwrap();
+    let run = Simulation::new(&Torn, near).until(1e3).run().unwrap();
+    assert!(run.end().1.phi().norm() > 5.0, "{}", run.end().1.phi());
+    // In the plane nothing but the size is left to go.
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.2, body_inertia = 1))]
+    struct Flat;
+    let turn = Generator::<2>::rotation(1, 2);
+    let start = Flat.at_velocity(Matrix::<2>::identity(), turn.space).unwrap();
+    let found = relative_equilibrium(&Flat, &start, &[turn], &[Condition::Velocity(0, 1.0)]).unwrap();
+    assert_eq!(found.stability(&Flat).unwrap().verdict, StabilityVerdict::Stable);
+}
+
+/// A ball that flies is stable as one at rest is, turning or not.
+#[test]
+fn verdicts_do_not_depend_on_who_looks() {
+    #[affine_model(dim = 3, kinetic(dalembert = 1, space_translation = 1), potential = neo_hookean(0.5) + 5*q^2)]
+    struct Ball;
+    let (axis, turn) = (Generator::<3>::translation(1), Generator::<3>::rotation(2, 3));
+    for omega in [0.0, 0.3] {
+        for v in [0.0, 0.5] {
+            let drift = Vector::<3>::new(v, 0.0, 0.0);
+            let guess = Ball
+                .at_velocity(Vector::<3>::zeros(), Matrix::<3>::identity(), drift, turn.space * omega)
+                .unwrap();
+            let conditions = [Condition::Velocity(0, v), Condition::Velocity(1, omega)];
+            let found = relative_equilibrium(&Ball, &guess, &[axis, turn], &conditions).unwrap();
+            let stability = found.stability(&Ball).unwrap();
+            assert_eq!(
+                stability.verdict,
+                StabilityVerdict::Stable,
+                "{omega}, {v}: {:?}",
+                stability.signature
+            );
+        }
     }
 }
 

@@ -95,6 +95,13 @@ impl<const N: usize> Generator<N> {
         DVector::from_iterator(3 * N * N + N, all.copied())
     }
 
+    /// That of components.
+    pub(super) fn of(components: &[f64]) -> Self {
+        let matrix = |k: usize| Matrix::<N>::from_fn(|i, j| components[k * N * N + j * N + i]);
+        let drift = Vector::<N>::from_fn(|i, _| components[3 * N * N + i]);
+        Self { space: matrix(0), body: matrix(1), orbit: matrix(2), drift }
+    }
+
     /// The momentum `J` of a point.
     pub(super) fn momentum<M: Model<N>, T: Real>(&self, model: &M, point: &M::Point<T>) -> T {
         let point = model.orthonormal(point);
