@@ -27,7 +27,6 @@ mod relative;
 mod spectrum;
 mod stability;
 mod symmetry;
-mod tape;
 
 pub use branch::{Branch, BranchPoint, Special};
 pub use continuation::Continuation;

@@ -120,6 +120,8 @@ pub mod signature;
 pub mod simulate;
 #[cfg(feature = "rand")]
 pub mod starts;
+#[cfg(feature = "analysis")]
+mod tape;
 pub mod variation;
 #[cfg(all(feature = "std", not(feature = "report")))]
 mod without_report;

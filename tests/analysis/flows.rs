@@ -1,9 +1,13 @@
 //! Flow matrices, exponents and sensitivities against closed forms.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use affine_runtime::analysis::{FlowMatrix, Sensitivities, lyapunov_spectrum};
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::model::Model;
 use affine_runtime::nalgebra::DMatrix;
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 use crate::models::{Disc, FreeTop, Top, turning};
 
@@ -76,6 +80,48 @@ fn exponents_are_those_of_any_unit_of_time() {
                 assert!(exponent.abs() <= *error, "{slow:e}, {time}: {spectrum:?}");
             }
         }
+    }
+}
+
+/// Nor does the unit of length, where places and placements are coupled: about as many evaluations find them.
+#[test]
+fn exponents_are_found_in_any_unit_of_length() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = m),
+        potential = tr(G)/2 - ln(det) + 1.5*m*norm(x)^2 + c*x[1]*phi[1,2],
+        forces = custom(counted, translation)
+    )]
+    struct Held {
+        m: f64,
+        c: f64,
+        counted: Counted,
+    }
+    let evaluations = |unit: f64| {
+        let model = Held { m: 1.0 / (unit * unit), c: 0.25 / unit, counted: Counted }.prepare().unwrap();
+        let (x, v) = (Vector::<2>::new(0.3, -0.2) * unit, Vector::<2>::new(0.3, 0.2) * unit);
+        let (phi, rate) = (Matrix::<2>::new(1.2, 0.1, 0.0, 0.9), Matrix::<2>::new(0.1, -0.3, 0.4, -0.1));
+        let start = model.at_velocity(x, phi, v, rate).unwrap();
+        let before = EVALUATIONS.load(Ordering::Relaxed);
+        lyapunov_spectrum(&model, &start, 20.0, 1e-6).unwrap();
+        EVALUATIONS.load(Ordering::Relaxed) - before
+    };
+    let [usual, other] = [1.0, 1e6].map(evaluations);
+    // Columns of all units take shorter steps.
+    assert!(other < 10 * usual, "{usual}, {other}");
+}
+
+static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
+
+/// A force that is none, and counts how often it is asked for.
+#[derive(Clone, Copy, Debug)]
+struct Counted;
+
+impl Force<2> for Counted {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, _: &Motion<2, T>) -> Vector<2, T> {
+        EVALUATIONS.fetch_add(1, Ordering::Relaxed);
+        Vector::<2, T>::zeros()
     }
 }
 

@@ -274,8 +274,13 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
     let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
     let slopes = flow.jacobian.at(0.0, flow.start.as_slice());
-    // Once in a turn of what is fastest at the start, in whatever units of time: of squares masses and lengths cancel.
-    let rounds = (time.abs() * (&slopes * &slopes).norm().sqrt() / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
+    // Once in a turn of what is fastest at the start, in whatever units: masses and lengths cancel in what a square has of one quantity.
+    let (square, mut at) = (&slopes * &slopes, 0);
+    let own = M::DESCRIPTION.full.iter().map(|group| {
+        at += group.len;
+        square.view((at - group.len, at - group.len), (group.len, group.len)).norm_squared()
+    });
+    let rounds = (time.abs() * own.sum::<f64>().powf(0.25) / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
     let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use super::tape::{Kind, Operand, Operation, Recorded, recorded};
 use crate::dual::Dual;
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
+use crate::tape::{Kind, Operand, Operation, Recorded, recorded};
 
 /// `df/dy` of equations of motion `y' = f(t, y)`, as straight-line code.
 ///
