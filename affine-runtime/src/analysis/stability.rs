@@ -48,7 +48,8 @@ pub enum Doubt {
     ZeroMode,
     /// Equal eigenvalues have energies of both signs.
     MixedSigns,
-    /// The symmetries that keep the momentum are not compact: motions may drift along them.
+    /// The symmetries that keep the momentum change the others without bound, or neighbours with another `p` have fewer: motions
+    /// may leave, though energy and momentum are kept.
     NonCompact,
     /// Neither damped nor growing.
     Neutral,
