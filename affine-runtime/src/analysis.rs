@@ -12,6 +12,7 @@
 //! | how they branch | [`Continuation`], and `branch_diagram` with the feature `report` |
 
 mod branch;
+mod continuation;
 mod error;
 mod field;
 mod flow_matrix;
@@ -25,9 +26,10 @@ mod pictures;
 mod relative;
 mod spectrum;
 mod stability;
-mod tape;
+mod symmetry;
 
-pub use branch::{Branch, BranchPoint, Continuation, Special};
+pub use branch::{Branch, BranchPoint, Special};
+pub use continuation::Continuation;
 pub use error::AnalysisError;
 pub use flow_matrix::{FlowMatrix, LyapunovSpectrum, Sensitivities, lyapunov_spectrum};
 pub use generator::Generator;

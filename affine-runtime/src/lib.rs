@@ -120,6 +120,8 @@ pub mod signature;
 pub mod simulate;
 #[cfg(feature = "rand")]
 pub mod starts;
+#[cfg(feature = "analysis")]
+mod tape;
 pub mod variation;
 #[cfg(all(feature = "std", not(feature = "report")))]
 mod without_report;
@@ -142,6 +144,8 @@ pub mod capability {
 /// What of the other crates is for this one alone.
 mod inner {
     pub(crate) use affine_core::__private::numerics::*;
+    #[cfg(feature = "analysis")]
+    pub(crate) use affine_core::__private::projected;
     #[cfg(feature = "std")]
     pub(crate) use affine_core::__private::{Unconstrained, gathered};
     #[cfg(feature = "std")]

@@ -5,7 +5,7 @@ use affine_runtime::analysis::{
     AnalysisError, Branch, BranchPoint, Condition, Continuation, Generator, Special, StabilityVerdict,
     branch_diagram, lyapunov_spectrum,
 };
-use affine_runtime::force::{Force, Motion};
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::frames::Body as OnBody;
 use affine_runtime::frames::Matrix;
 use affine_runtime::prelude::*;
@@ -117,6 +117,176 @@ impl Force<2> for Follower {
         let zero = T::zero();
         // It pairs with phi^-1 phi_dot as a trace.
         Matrix::<2, T>::new(zero, b * motion.phi[(0, 1)], -b * motion.phi[(1, 0)], zero)
+    }
+}
+
+/// A rotor that a force drives round in a bearing with friction, `z'' + c z' + (k - i w) z = 0`: at `w = c sqrt(k)` it begins to whirl,
+/// wherever the steps end.
+#[test]
+fn special_points_on_steps_are_found() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = 2*norm(x)^2 + (phi[1,1] - 1)^2 + (phi[2,2] - 1)^2 + phi[1,2]^2 + phi[2,1]^2,
+        dissipation(space_translation = c, dalembert = 0.1),
+        forces = custom(driven, translation),
+    )]
+    struct Rotor {
+        c: f64,
+        driven: Driven,
+    }
+    let none = Vector::<2>::zeros();
+    for (c, steps) in [(0.2, [0.1, 0.07]), (0.25, [0.1, 0.125]), (0.5, [0.25, 0.1])] {
+        let family = |w: f64| Ok((Rotor { c, driven: Driven { w } }.prepare()?, Vec::new()));
+        let (model, _) = family(0.0).unwrap();
+        let guess = model.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();
+        for step in steps {
+            let branch = Continuation::new(&[], (0.0, 3.0 * c), step, family).run(&guess, 0.0).unwrap();
+            let [(Special::Hopf, point)] = branch.special.as_slice() else { panic!("{c}, {step}: {branch}") };
+            assert!((point.parameter - 2.0 * c).abs() < 1e-9, "{c}, {step}: {branch}");
+        }
+    }
+}
+
+/// A force on the centre of mass, across the way to it.
+#[derive(Clone, Copy, Debug)]
+struct Driven {
+    w: f64,
+}
+
+impl Force<2> for Driven {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        let w = T::constant(self.w, 0.0);
+        Vector::<2, T>::new(-w * motion.x[1], w * motion.x[0])
+    }
+}
+
+/// A magnetic field holds a charge on a hill, `z'' + i b z' - z = 0`, above `b = 2`, where two frequencies meet.
+#[test]
+fn forces_without_work_let_frequencies_meet() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = -norm(x)^2/2 + (phi[1,1] - 1)^2 + (phi[2,2] - 1)^2 + phi[1,2]^2 + phi[2,1]^2,
+        forces = custom(field, translation, gyroscopic),
+    )]
+    struct Charged {
+        field: Magnetic,
+    }
+    let none = Vector::<2>::zeros();
+    let family = |b: f64| Ok((Charged { field: Magnetic { b } }.prepare()?, Vec::new()));
+    let (model, _) = family(1.0).unwrap();
+    let guess = model.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();
+    for step in [0.25, 0.3] {
+        let branch = Continuation::new(&[], (1.0, 3.0), step, family).run(&guess, 1.0).unwrap();
+        let [(Special::Collision, point)] = branch.special.as_slice() else { panic!("{step}: {branch}") };
+        assert!((point.parameter - 2.0).abs() < 1e-9, "{step}: {branch}");
+    }
+}
+
+/// A force across the velocity of the centre of mass.
+#[derive(Clone, Copy, Debug)]
+struct Magnetic {
+    b: f64,
+}
+
+impl Force<2> for Magnetic {
+    type Form = Translation;
+    const GYROSCOPIC: bool = true;
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        let b = T::constant(self.b, 0.0);
+        Vector::<2, T>::new(b * motion.x_dot[1], -b * motion.x_dot[0])
+    }
+}
+
+/// A pitchfork at 0, which a step would pass beyond the end of the range: the branch goes as far as the range, in either direction of
+/// the arclength.
+#[test]
+fn branches_go_as_far_as_the_range() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = x[1]^4/4 - l*x[1]^2/2 + x[2]^2/2 + (phi[1,1] - 1)^2 + (phi[2,2] - 1)^2 + phi[1,2]^2 + phi[2,1]^2,
+    )]
+    struct Forked {
+        l: f64,
+    }
+    let family = |l: f64| {
+        if (-1.0..=0.04).contains(&l) {
+            Ok((Forked { l }.prepare()?, Vec::new()))
+        } else {
+            Err(Error::Placement { determinant: l })
+        }
+    };
+    let (model, none) = (Forked { l: -1.0 }.prepare().unwrap(), Vector::<2>::zeros());
+    let guess = model.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();
+    for step in [0.099, 0.25, 0.5, 3.0] {
+        let branch = Continuation::new(&[], (-1.0, 0.04), step, family).run(&guess, -1.0).unwrap();
+        let [(Special::Bifurcation, point)] = branch.special.as_slice() else { panic!("{step}: {branch}") };
+        assert!(point.parameter.abs() < 1e-9, "{step}: {branch}");
+        assert_eq!((branch.points.last().unwrap().parameter, branch.ended), (0.04, None), "{step}");
+    }
+    // From where the other branch is, x^2 = l, back to the fork and over it.
+    let wide = |l: f64| Ok((Forked { l }.prepare()?, Vec::new()));
+    let straight = Continuation::new(&[], (-1.0, 0.5), 0.1, wide).run(&guess, -1.0).unwrap();
+    let [(Special::Bifurcation, fork)] = straight.special.as_slice() else { panic!("{straight}") };
+    let away = Continuation::new(&[], (-1.0, 0.5), 0.1, wide).switch(fork, 0.05).unwrap();
+    let last = away.points.last().unwrap();
+    assert_eq!((last.parameter, away.ended), (0.5, None));
+    assert!((last.turn.point.x()[0].powi(2) - 0.5).abs() < 1e-12);
+}
+
+/// With other metrics the same disc branches where it did, and its stretches are those by these metrics.
+#[test]
+fn stretches_of_branches_are_those_of_the_metrics() {
+    #[affine_model(
+        dim = 2,
+        metrics(space = diag(4, 1), body = diag(1, 9)),
+        kinetic(dalembert = 1),
+        potential = hyperbolic_dilatation(4) + neo_hookean(0.05)
+    )]
+    struct Measured;
+    let family = |spin: f64| Ok((Measured, vec![Condition::MomentumMap(0, spin)]));
+    // Orthonormal: diag(2, 1) phi diag(1, 1/3).
+    let round = Matrix::<2>::new(0.5, 0.0, 0.0, 3.0);
+    let guess = Measured.at_velocity(round, Matrix::<2>::zeros()).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let branch = Continuation::new(&turn, (-0.01, 0.8), 0.1, family).run(&guess, 0.0).unwrap();
+    let [(Special::Bifurcation, point)] = branch.special.as_slice() else { panic!("{branch}") };
+    assert!((point.parameter - 0.6648270638631039).abs() < 1e-9, "{branch}");
+    for stretch in point.stretches() {
+        assert!((stretch - 1.0511838859648149).abs() < 1e-9, "{branch}");
+    }
+    assert!(branch.to_string().contains("stretches [1.051183886, 1.051183886]"), "{branch}");
+}
+
+/// Viscosity that rests in a body that turns changes neither the branch nor where it loses its stiffness: there it becomes unstable.
+#[test]
+fn viscous_discs_branch_where_others_do() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = hyperbolic_dilatation(4) + neo_hookean(0.05),
+        dissipation(space_inertia = 0.05, casimir2 = 0.05)
+    )]
+    struct Viscous;
+    let family = |spin: f64| Ok((Viscous, vec![Condition::MomentumMap(0, spin)]));
+    let guess = Viscous.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
+    let turn = [Generator::rotation(1, 2)];
+    let branch = Continuation::new(&turn, (0.01, 0.8), 0.1, family).run(&guess, 0.01).unwrap();
+    let [(Special::Bifurcation, point)] = branch.special.as_slice() else { panic!("{branch}") };
+    assert!((point.parameter - 0.6648270638631039).abs() < 1e-9, "{branch}");
+    let (first, last) = (&branch.points[0], branch.points.last().unwrap());
+    assert_eq!(first.stability.verdict, StabilityVerdict::Stable);
+    assert!(matches!(last.stability.verdict, StabilityVerdict::Unstable { .. }));
+    // The elongated discs of the branch without friction.
+    let far = Continuation::new(&turn, (0.0, 1.0), 0.1, family).switch(point, 0.05).unwrap();
+    for point in &far.points {
+        let q = point.stretches();
+        let sum = (q[0] * q[0] + q[1] * q[1]) / 2.0;
+        assert!((sum - 4.0 / 0.8 * ((q[0] * q[1]).powi(2) - 1.0)).abs() < 1e-11, "{q:?}");
+        assert_eq!(point.stability.verdict, StabilityVerdict::Stable, "{q:?}");
     }
 }
 

@@ -1,9 +1,13 @@
 //! Flow matrices, exponents and sensitivities against closed forms.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use affine_runtime::analysis::{FlowMatrix, Sensitivities, lyapunov_spectrum};
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::model::Model;
 use affine_runtime::nalgebra::DMatrix;
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 use crate::models::{Disc, FreeTop, Top, turning};
 
@@ -79,6 +83,48 @@ fn exponents_are_those_of_any_unit_of_time() {
     }
 }
 
+/// Nor does the unit of length, where places and placements are coupled: about as many evaluations find them.
+#[test]
+fn exponents_are_found_in_any_unit_of_length() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = m),
+        potential = tr(G)/2 - ln(det) + 1.5*m*norm(x)^2 + c*x[1]*phi[1,2],
+        forces = custom(counted, translation)
+    )]
+    struct Held {
+        m: f64,
+        c: f64,
+        counted: Counted,
+    }
+    let evaluations = |unit: f64| {
+        let model = Held { m: 1.0 / (unit * unit), c: 0.25 / unit, counted: Counted }.prepare().unwrap();
+        let (x, v) = (Vector::<2>::new(0.3, -0.2) * unit, Vector::<2>::new(0.3, 0.2) * unit);
+        let (phi, rate) = (Matrix::<2>::new(1.2, 0.1, 0.0, 0.9), Matrix::<2>::new(0.1, -0.3, 0.4, -0.1));
+        let start = model.at_velocity(x, phi, v, rate).unwrap();
+        let before = EVALUATIONS.load(Ordering::Relaxed);
+        lyapunov_spectrum(&model, &start, 20.0, 1e-6).unwrap();
+        EVALUATIONS.load(Ordering::Relaxed) - before
+    };
+    let [usual, other] = [1.0, 1e6].map(evaluations);
+    // Columns of all units take shorter steps.
+    assert!(other < 10 * usual, "{usual}, {other}");
+}
+
+static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
+
+/// A force that is none, and counts how often it is asked for.
+#[derive(Clone, Copy, Debug)]
+struct Counted;
+
+impl Force<2> for Counted {
+    type Form = Translation;
+    fn force<T: Scalar>(&self, _: &Motion<2, T>) -> Vector<2, T> {
+        EVALUATIONS.fetch_add(1, Ordering::Relaxed);
+        Vector::<2, T>::zeros()
+    }
+}
+
 #[test]
 fn exponents_of_integrable_motions_vanish() {
     let disc = Disc { i: 1.0, kappa: 4.0, c1: 0.3 }.prepare().unwrap();
@@ -105,6 +151,53 @@ fn end<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>) -> DMatrix<
 fn difference(end: impl Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
     const H: f64 = 2e-3;
     ((end(H) - end(-H)) * 8.0 - (end(2.0 * H) - end(-2.0 * H))) / (12.0 * H)
+}
+
+/// By a metric: a start that is held in the bases of its points moves in those in which the metric is the identity.
+#[test]
+fn metrics_have_sensitivities() {
+    #[affine_model(
+        dim = 2,
+        metrics(space = g, body = e),
+        kinetic(dalembert = 1, space_translation = m),
+        potential = tr(G)/2 - q + x[1]^2*phi[1,2]
+    )]
+    struct Measured {
+        g: Matrix<2>,
+        e: Matrix<2>,
+        m: f64,
+    }
+    let fields = |change: [f64; 3]| Measured {
+        g: Matrix::<2>::new(2.0 + change[0], 0.3, 0.3, 1.0),
+        e: Matrix::<2>::new(1.0, 0.2, 0.2, 1.5 + change[1]),
+        m: 1.3 + change[2],
+    };
+    let begun = |change: [f64; 3]| {
+        let model = fields(change).prepare().unwrap();
+        let (x, x_dot) = (Vector::<2>::new(0.3, -0.2), Vector::<2>::new(0.1, 0.2));
+        let (phi, phi_dot) = (Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(0.1, 0.4, -0.3, -0.2));
+        let start = model.at_velocity(x, phi, x_dot, phi_dot).unwrap();
+        (model, start)
+    };
+    let (model, start) = begun([0.0; 3]);
+    let found = Sensitivities::of(&fields([0.0; 3]), &model, (0.0, &start), 0.7, 1e-12).unwrap();
+    // m, then g row by row, then e.
+    for (column, change) in [(1, [1.0, 0.0, 0.0]), (8, [0.0, 1.0, 0.0]), (0, [0.0, 0.0, 1.0])] {
+        let at_velocity = difference(|h| {
+            let (model, start) = begun(change.map(|one| one * h));
+            end(&model, start)
+        });
+        let off = (found.by_fields_at_velocity.column(column) - at_velocity.transpose()).norm();
+        assert!(off < 1e-8 && at_velocity.norm() > 0.01, "{column}: {off:e}");
+        // The plain array of the start is held.
+        let plain = model.flatten(&start);
+        let by_array = difference(|h| {
+            let (model, _) = begun(change.map(|one| one * h));
+            end(&model, model.unflatten(&plain))
+        });
+        let off = (found.by_fields.column(column) - by_array.transpose()).norm();
+        assert!(off < 1e-8, "{column}: {off:e}");
+    }
 }
 
 /// Under constraints, that of a multiplier too: by fields where the velocity of the start is held, and by the velocity.

@@ -59,6 +59,32 @@ fn constraints_leave_modes_out() {
     assert_modes(&modes, &expected, 3);
 }
 
+/// Metrics change neither frequencies nor what they are called: lengths and angles are theirs.
+#[test]
+fn classes_are_those_of_the_metrics() {
+    #[affine_model(dim = 3, kinetic(dalembert = 1), potential = neo_hookean(0.5) + 5*q^2)]
+    struct Ball;
+    #[affine_model(
+        dim = 3,
+        metrics(space = diag(4, 1, 1), body = diag(1, 1, 9)),
+        kinetic(dalembert = 1),
+        potential = neo_hookean(0.5) + 5*q^2
+    )]
+    struct Measured;
+    let guess = Ball.at_velocity(Matrix::<3>::identity() * 1.1, Matrix::<3>::zeros()).unwrap();
+    let plain = modes_near(&Ball, &guess);
+    let expected: Vec<_> =
+        plain.modes.iter().map(|mode| (mode.frequency(), mode.class, mode.multiplicity())).collect();
+    assert!(
+        matches!(expected.as_slice(), [(_, ModeClass::Shear, 5), (_, ModeClass::Breathing, 1)]),
+        "{plain}"
+    );
+    // Orthonormal: diag(2, 1, 1) phi diag(1, 1, 1/3).
+    let round = Matrix::<3>::from_diagonal(&Vector::<3>::new(0.5, 1.0, 3.0));
+    let guess = Measured.at_velocity(round * 1.1, Matrix::<3>::zeros()).unwrap();
+    assert_modes(&modes_near(&Measured, &guess), &expected, 3);
+}
+
 /// Friction and turning bodies have no such modes, and say so.
 #[test]
 fn what_moves_does_not_vibrate_about_rest() {

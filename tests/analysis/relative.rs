@@ -1,7 +1,7 @@
 //! Equilibria and relative equilibria that are known, and that they stay so.
 
 use affine_runtime::analysis::{
-    AnalysisError, Condition, Generator, StabilityVerdict, equilibrium, relative_equilibrium,
+    AnalysisError, Condition, Continuation, Generator, StabilityVerdict, equilibrium, relative_equilibrium,
 };
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
@@ -153,6 +153,31 @@ fn failures_say_what_is_wrong() {
     struct Driven;
     let guess = Driven.at_velocity(Matrix::<2>::identity(), Matrix::<2>::zeros()).unwrap();
     assert_eq!(equilibrium(&Driven, &guess).unwrap_err(), AnalysisError::DependsOnTime);
+    // The springs of a centre that rests pulsate: it is thrown out, as the trace -2.4 of one turn says.
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = (1 + a*cos(2*t))*norm(x)^2/2 + tr(G)/2 - ln(det))]
+    struct Pulsating {
+        a: f64,
+    }
+    let still = |a: f64| {
+        let (model, none) = (Pulsating { a }.prepare().unwrap(), Vector::<2>::zeros());
+        let guess = model.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();
+        (model, guess)
+    };
+    let (model, guess) = still(0.8);
+    assert_eq!(equilibrium(&model, &guess).unwrap_err(), AnalysisError::DependsOnTime);
+    let (model, guess) = still(0.0);
+    assert!(equilibrium(&model, &guess).is_ok());
+    // Also where the time comes in on the way.
+    let family = |a: f64| Ok((Pulsating { a }.prepare()?, Vec::new()));
+    let branch = Continuation::new(&[], (0.0, 1.0), 0.1, family).run(&guess, 0.0).unwrap();
+    assert_eq!((branch.points.len(), branch.ended), (1, Some(AnalysisError::DependsOnTime)));
+    // A length has no derivative where it vanishes, which is no matter of time.
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = norm(x)^3 + tr(G)/2 - ln(det))]
+    struct Cusped;
+    let none = Vector::<2>::zeros();
+    let guess = Cusped.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();
+    let error = equilibrium(&Cusped, &guess).unwrap_err();
+    assert!(error.to_string().ends_with("the equations have no value there"), "{error}");
     // Straight lines do not rest.
     #[affine_model(dim = 2, kinetic(dalembert = 1), potential = phi[1,1])]
     struct Falling;

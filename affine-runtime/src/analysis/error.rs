@@ -30,7 +30,7 @@ pub enum AnalysisError {
         /// The value.
         value: f64,
     },
-    /// The potential contains the time: nothing rests.
+    /// The equations contain the time, by the potential or a force: what rests and is stable at one time is not at another.
     DependsOnTime,
     /// The equations are not those of small vibrations about rest: something moves, a force has no potential, or the mass
     /// matrix is not positive.
@@ -72,6 +72,9 @@ pub enum AnalysisError {
 impl fmt::Display for AnalysisError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NoConvergence { residual, .. } if !residual.is_finite() => {
+                write!(f, "no solution near the guess: the equations have no value there")
+            }
             Self::NoConvergence { residual, steps } => {
                 write!(f, "no solution near the guess: residual {residual:e} after {steps} steps")
             }
@@ -80,7 +83,10 @@ impl fmt::Display for AnalysisError {
                 f,
                 "a condition asks generator {generator} for {value}: there are {generators}, counted from 0, and values are finite"
             ),
-            Self::DependsOnTime => write!(f, "the potential contains the time: nothing rests"),
+            Self::DependsOnTime => write!(
+                f,
+                "the equations contain the time: what rests and is stable at one time is not at another"
+            ),
             Self::NoVibrations => write!(f, "something moves or is damped, or masses are not positive"),
             Self::Degenerate { kernel, expected } => {
                 write!(f, "solutions go on in {kernel} directions where {expected} are expected")

@@ -4,9 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::generator::Generator;
 use super::linear::{Column, Dense, from_columns};
+use crate::decompose::LinearMap;
 use crate::dual::{Dual, fixed};
 use crate::frames::Matrix;
-use crate::model::{Constraint, Model, StateVector};
+use crate::inner::projected;
+use crate::model::{Constraint, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -58,20 +60,49 @@ fn columns<const N: usize, M: Model<N>>(
     z: &Column,
     map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
 ) -> Dense {
-    let column = |k: usize| {
-        let mut varied: M::Full<Dual<f64>> = fixed(z.as_slice());
-        varied.as_mut()[k].slope = 1.0;
-        DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
-    };
-    DMatrix::from_columns(&(0..z.len()).map(column).collect::<Vec<_>>())
+    let axes = Dense::identity(z.len(), z.len());
+    let columns = axes.column_iter().map(|axis| slope_along::<N, M>(z, &axis.into_owned(), &map));
+    DMatrix::from_columns(&columns.collect::<Vec<_>>())
 }
 
-/// The potential contains the time.
-pub(super) fn depends_on_time<const N: usize, M: Model<N>>(model: &M, z: &Column) -> bool {
-    let still: M::Full<Dual<f64>> = fixed(z.as_slice());
-    // No time at which a sine or a cosine is flat.
-    let rates = model.hamilton_equations(Dual { value: 0.7310585786, slope: 1.0 }, &still);
-    rates.as_ref().iter().any(|rate| rate.slope != 0.0)
+/// The derivative of a map from plain arrays along a direction.
+pub(super) fn slope_along<const N: usize, M: Model<N>>(
+    z: &Column,
+    direction: &Column,
+    map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
+) -> Column {
+    let mut varied: M::Full<Dual<f64>> = fixed(z.as_slice());
+    varied.as_mut().iter_mut().zip(direction.iter()).for_each(|(entry, slope)| entry.slope = *slope);
+    DVector::from_vec(map(&varied).iter().map(|number| number.slope).collect())
+}
+
+/// Where places and momenta are in the plain array.
+pub(super) struct Kinds {
+    pub(super) places: Vec<usize>,
+    pub(super) momenta: Vec<usize>,
+}
+
+impl Kinds {
+    pub(super) fn of<const N: usize, M: Model<N>>() -> Self {
+        let is_place = |quantity| matches!(quantity, Quantity::Position | Quantity::Placement);
+        let groups = M::DESCRIPTION.full.iter();
+        let all = groups.flat_map(|group| vec![is_place(group.quantity); group.len]).enumerate();
+        let (places, momenta): (Vec<_>, Vec<_>) = all.partition(|(_, is_place)| *is_place);
+        let [places, momenta] = [places, momenta].map(|kind| kind.into_iter().map(|(k, _)| k).collect());
+        Self { places, momenta }
+    }
+
+    /// By what momenta change a motion, and places its momenta.
+    pub(super) fn slopes(&self, jacobian: &Dense) -> [f64; 2] {
+        [(&self.places, &self.momenta), (&self.momenta, &self.places)]
+            .map(|(rows, columns)| jacobian.select_rows(rows).select_columns(columns).norm())
+    }
+
+    /// How large momenta are that belong to places of size 1, by the masses and the stiffnesses, where there are both.
+    pub(super) fn momentum(&self, jacobian: &Dense) -> Option<f64> {
+        let [by_mass, stiffness] = self.slopes(jacobian);
+        (by_mass > 0.0 && stiffness > 0.0).then(|| (stiffness / by_mass).sqrt())
+    }
 }
 
 /// What vanishes on the phase points of a confined model.
@@ -79,27 +110,13 @@ fn constraints<const N: usize, M: Model<N>, T: Real>(model: &M, full: &M::Full<T
     let Some(constraint) = M::DESCRIPTION.constraint else { return Vec::new() };
     let point = model.orthonormal(&model.unflatten(full));
     let phi = *point.phi();
-    let green = phi.transpose() * phi;
-    let mean = green.trace() / T::constant(N as f64, 0.0);
-    let pairs = || (0..N).flat_map(|a| (0..a).map(move |b| (a, b)));
-    let mut values: Vec<T> = match constraint {
-        Constraint::Isochoric => vec![determinant(&phi) - T::one()],
-        Constraint::Rigid => (0..N).map(|a| green[(a, a)] - T::one()).collect(),
-        Constraint::Conformal => (1..N).map(|a| green[(a, a)] - mean).collect(),
+    let green = phi.tr_mul(&phi);
+    let defect = match constraint {
+        Constraint::Isochoric => return vec![phi.mean_log_stretch()],
+        Constraint::Rigid => green - Matrix::<N, T>::identity(),
+        Constraint::Conformal => green - projected(constraint, &green),
     };
-    if constraint != Constraint::Isochoric {
-        values.extend(pairs().map(|(a, b)| green[(a, b)]));
-    }
-    values
-}
-
-/// A determinant in any numbers.
-pub(super) fn determinant<const N: usize, T: Real>(phi: &Matrix<N, T>) -> T {
-    let minor = |a: usize, b: usize| phi[(N - 2, a)] * phi[(N - 1, b)] - phi[(N - 2, b)] * phi[(N - 1, a)];
-    match N {
-        2 => minor(0, 1),
-        _ => phi[(0, 0)] * minor(1, 2) - phi[(0, 1)] * minor(0, 2) + phi[(0, 2)] * minor(0, 1),
-    }
+    (0..N).flat_map(|a| (0..=a).map(move |b| (a, b))).map(|place| defect[place]).collect()
 }
 
 /// Values of the constraints.

@@ -165,9 +165,9 @@ pub struct Sensitivities {
     /// Of a constraint, along what it admits.
     pub by_velocity: DMatrix<f64>,
     /// By the fields in the order of [`Fields::FIELDS`], numbers before matrices, where the plain array of the start is held:
-    /// placement and momentum.
+    /// placement and momentum in bases in which the metrics are the identity.
     pub by_fields: DMatrix<f64>,
-    /// By the fields, where placement and velocity of the start are held.
+    /// By the fields, where placement and velocity of the start are held, in the bases of the user's points.
     pub by_fields_at_velocity: DMatrix<f64>,
 }
 
@@ -193,44 +193,54 @@ impl Sensitivities {
         let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
         let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
         let (own, mut by_fields) = (flow.start.len(), Vec::new());
+        let forced = |coefficients: &[_], t: f64, z: &[f64]| {
+            let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
+            slopes_by(coefficients, own, |c| model.hamilton_equations_with(c, Dual::fixed(t), &still))
+        };
         // As many at once as the state has components.
         for coefficients in coefficients.chunks(own) {
             let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
             flow.set(&DMatrix::zeros(0, 0));
-            flow.advance(t, |t, z| field_slopes::<N, F>(model, coefficients, t, z.as_ref()))?;
+            flow.advance(t, |t, z| forced(coefficients, t, z.as_ref()))?;
             by_fields.extend(flow.columns(coefficients.len()).column_iter().map(|one| one.into_owned()));
         }
         let by_fields = from_columns(own, &by_fields);
-        let slopes = field_slopes::<N, F>(model, &coefficients, t0, flow.start.as_slice());
+        let start = flow.start.as_slice();
         // Places and velocities by the plain array, and that by these.
-        let mut both = flow.jacobian.at(t0, flow.start.as_slice()).insert_rows(0, own, 0.0);
+        let mut both = flow.jacobian.at(t0, start).insert_rows(0, own, 0.0);
         both.rows_mut(0, own).fill_with_identity();
         let places = flow.positions();
         let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
         let inverse = both.select_rows(&rows).pseudo_inverse(RANK);
         let inverse = inverse.map_err(|_| AnalysisError::NoDecomposition)?;
+        // Bases in which the metrics are the identity change with them, and a place and a velocity that are held change in these.
+        let rates = model.hamilton_equations(t0, &full::<N, F::Prepared>(&flow.start));
+        let mut moving = flow.start.clone();
+        places.iter().for_each(|place| moving[*place] = rates.as_ref()[*place]);
+        let [turned, turned_rates] = [start, moving.as_slice()].map(|z| {
+            let point = model.unflatten(&fixed(z));
+            slopes_by(&coefficients, own, |c| model.flatten_with(c, &point)).select_rows(&places)
+        });
+        let mut held = turned.insert_rows(places.len(), places.len(), 0.0);
+        let rates = turned_rates - forced(&coefficients, t0, start).select_rows(&places);
+        held.rows_mut(places.len(), places.len()).copy_from(&rates);
         flow.advance_to(t)?;
         let by_start = flow.matrix();
         let by_velocity = &by_start * inverse;
-        let by_rates = by_velocity.columns(places.len(), places.len());
-        let by_fields_at_velocity = &by_fields - by_rates * slopes.select_rows(&places);
+        let by_fields_at_velocity = &by_fields + &by_velocity * held;
         Ok(Self { by_start, by_velocity, by_fields, by_fields_at_velocity })
     }
 }
 
-/// The derivatives of the rates by fields, in columns.
-fn field_slopes<const N: usize, F: Fields<N>>(
-    model: &F::Prepared,
-    coefficients: &[<F::Prepared as Parametric<N>>::Coefficients<Dual<f64>>],
-    t: f64,
-    z: &[f64],
+/// The derivatives of a function of coefficients, over the plain array, by fields in columns.
+fn slopes_by<C, S: AsRef<[Dual<f64>]>>(
+    coefficients: &[C],
+    rows: usize,
+    of: impl Fn(&C) -> S,
 ) -> DMatrix<f64> {
-    let still: <F::Prepared as Model<N>>::Full<Dual<f64>> = fixed(z);
-    let slopes = coefficients.iter().flat_map(|own| {
-        let rates = model.hamilton_equations_with(own, Dual::fixed(t), &still);
-        rates.as_ref().iter().map(|rate| rate.slope).collect::<Vec<_>>()
-    });
-    DMatrix::from_iterator(z.len(), coefficients.len(), slopes)
+    let slopes =
+        coefficients.iter().flat_map(|own| of(own).as_ref().iter().map(|one| one.slope).collect::<Vec<_>>());
+    DMatrix::from_iterator(rows, coefficients.len(), slopes)
 }
 
 /// Lyapunov exponents of a motion over a time, from the largest, in the norm of the plain array.
@@ -264,8 +274,13 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
     let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
     let slopes = flow.jacobian.at(0.0, flow.start.as_slice());
-    // Once in a turn of what is fastest at the start, in whatever units of time: of squares masses and lengths cancel.
-    let rounds = (time.abs() * (&slopes * &slopes).norm().sqrt() / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
+    // Once in a turn of what is fastest at the start, in whatever units: masses and lengths cancel in what a square has of one quantity.
+    let (square, mut at) = (&slopes * &slopes, 0);
+    let own = M::DESCRIPTION.full.iter().map(|group| {
+        at += group.len;
+        square.view((at - group.len, at - group.len), (group.len, group.len)).norm_squared()
+    });
+    let rounds = (time.abs() * own.sum::<f64>().powf(0.25) / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
     let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {

@@ -8,8 +8,9 @@ use super::linear::{Column, from_columns, solved};
 
 use crate::dual::{Dual, fixed};
 use crate::frames::{Matrix, Vector};
+use crate::inner::projected;
 use crate::metrics::Bases;
-use crate::model::{Conserved, Constraint, Description, Entry, Model, Quantity, StateVector};
+use crate::model::{Conserved, Description, Entry, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -94,6 +95,13 @@ impl<const N: usize> Generator<N> {
         DVector::from_iterator(3 * N * N + N, all.copied())
     }
 
+    /// That of components.
+    pub(super) fn of(components: &[f64]) -> Self {
+        let matrix = |k: usize| Matrix::<N>::from_fn(|i, j| components[k * N * N + j * N + i]);
+        let drift = Vector::<N>::from_fn(|i, _| components[3 * N * N + i]);
+        Self { space: matrix(0), body: matrix(1), orbit: matrix(2), drift }
+    }
+
     /// The momentum `J` of a point.
     pub(super) fn momentum<M: Model<N>, T: Real>(&self, model: &M, point: &M::Point<T>) -> T {
         let point = model.orthonormal(point);
@@ -129,14 +137,18 @@ impl<const N: usize> Generator<N> {
         let varied: M::Full<Dual<T>> = fixed(full.as_ref());
         let varied = model.orthonormal(&model.unflatten(&varied));
         let moved = varied.with_entries(&mut || entries.next().unwrap_or_else(Dual::zero));
-        let one = Matrix::<N>::identity();
-        let bases = model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)));
-        let moved = <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases.over());
+        let moved = <M::Point<Dual<T>>>::from_orthonormal(&moved, &bases(model).over());
         let mut rates = M::Full::<T>::zeros();
         let moved = model.flatten(&moved);
         rates.as_mut().iter_mut().zip(moved.as_ref()).for_each(|(rate, both)| *rate = both.slope);
         rates
     }
+}
+
+/// Bases in which the metrics are the identity.
+pub(super) fn bases<const N: usize, M: Model<N>>(model: &M) -> Bases<N> {
+    let one = Matrix::<N>::identity();
+    model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)))
 }
 
 /// Where a quantity begins in the plain array.
@@ -153,6 +165,13 @@ fn skew<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 /// `E_ij`, numbered from 1.
 fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
     Matrix::<N>::from_fn(|row, column| f64::from(u8::from((row + 1, column + 1) == (i, j))))
+}
+
+/// What turns and moves space, the body and its centre.
+pub(super) fn isometries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
+    use Conserved::{LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity};
+    let all = [LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity].into_iter().flat_map(generators::<N>);
+    all.map(|generator| confined::<N, M>(&generator)).collect()
 }
 
 /// The algebra of the symmetries that the energy is proved to have, as far as they move points linearly: a basis.
@@ -184,13 +203,8 @@ pub(super) fn assert_symmetry<const N: usize>(
 
 /// What leaves the group to which the motion is confined is left out, and what moves a centre of mass that the model has not.
 pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) -> Generator<N> {
-    let skew = |matrix: &Matrix<N>| (matrix - matrix.transpose()) * 0.5;
-    let mean = |matrix: &Matrix<N>| Matrix::<N>::identity() * (matrix.trace() / N as f64);
-    let kept = |matrix: &Matrix<N>| match M::DESCRIPTION.constraint {
-        None => *matrix,
-        Some(Constraint::Isochoric) => matrix - mean(matrix),
-        Some(Constraint::Rigid) => skew(matrix),
-        Some(Constraint::Conformal) => skew(matrix) + mean(matrix),
+    let kept = |matrix: &Matrix<N>| {
+        M::DESCRIPTION.constraint.map_or(*matrix, |constraint| projected(constraint, matrix))
     };
     let (space, body) = (kept(&generator.space), kept(&generator.body));
     match place(&M::DESCRIPTION, Quantity::Position).is_some() {

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use super::tape::{Kind, Operand, Operation, Recorded, recorded};
 use crate::dual::Dual;
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
+use crate::tape::{Kind, Operand, Operation, Recorded, recorded};
 
 /// `df/dy` of equations of motion `y' = f(t, y)`, as straight-line code.
 ///
@@ -60,6 +60,23 @@ impl JacobianMatrix {
         let arguments = [state, &[t]].concat();
         let (tape, results) = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
         Self { tape, results, components }
+    }
+
+    /// Whether the equations contain the time: a function of it that nothing multiplies by zero.
+    pub(super) fn contains_time(&self) -> bool {
+        let mut timed: Vec<bool> = (0..=self.components).map(|node| node == self.components).collect();
+        let is_timed =
+            |operand: &Operand, timed: &[bool]| matches!(*operand, Operand::Node(node) if timed[node]);
+        let zero = Operand::Constant(0.0);
+        for (kind, operands) in &self.tape[timed.len()..] {
+            let vanishes = |k: usize| match (kind, k) {
+                (Kind::Mul | Kind::Fma, 0 | 1) => operands[1 - k] == zero,
+                (Kind::Div, 1) => operands[0] == zero,
+                _ => false,
+            };
+            timed.push((0..3).any(|k| is_timed(&operands[k], &timed) && !vanishes(k)));
+        }
+        self.results.iter().any(|result| is_timed(result, &timed))
     }
 
     /// `df_i/dy_k` at a time and a state, in row `i` and column `k`. Any number will do, in the precision of doubles.

@@ -53,9 +53,9 @@ fn mapped_below(matrix: &Dense, bound: impl Fn(f64) -> f64) -> Dense {
     from_columns(columns, &vectors)
 }
 
-/// An orthonormal basis of the columns' span.
-pub(super) fn span(matrix: &Dense, tolerance: f64) -> Dense {
-    kernel(&kernel(&matrix.transpose(), tolerance).transpose(), tolerance)
+/// An orthonormal basis of the columns' span, as far as they are above a number.
+pub(super) fn span(matrix: &Dense, threshold: f64) -> Dense {
+    kernel(&absolute_kernel(&matrix.transpose(), threshold).transpose(), RANK)
 }
 
 /// The least-norm solution of linear equations, as nearly as they have one.

@@ -2,13 +2,13 @@
 
 use core::fmt;
 
-use nalgebra::{DMatrix, SVD};
-
 use super::error::AnalysisError;
 use super::field::{canonical_slopes, vector};
-use super::linear::{Column, Dense, RANK, decomposed, kernel};
+use super::linear::{Column, Dense, RANK, kernel};
 use super::relative::{Linearised, RelativeEquilibrium};
+use crate::decompose::TwoPolar;
 use crate::frames::{Matrix, Vector};
+use crate::metrics::Bases;
 use crate::model::{Model, Velocity};
 use crate::state::Phase;
 
@@ -26,6 +26,8 @@ pub struct Modes<const N: usize> {
     pub zeros: usize,
     /// The placement at rest.
     pub rest: Matrix<N>,
+    /// Those in which the metrics are the identity.
+    bases: Option<Bases<N>>,
 }
 
 /// A frequency with its shapes.
@@ -41,7 +43,7 @@ pub struct Mode<const N: usize> {
     pub shapes: Vec<Velocity<N>>,
 }
 
-/// How a shape changes the body, in the principal axes of the deformation at rest.
+/// How a shape changes the body, in the principal axes of the deformation at rest; lengths and angles are those of the metrics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ModeClass {
@@ -110,20 +112,35 @@ impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
         let own = |k: usize| eigen.eigenvalues[k];
         let (zero, moving): (Vec<usize>, Vec<usize>) =
             order.into_iter().partition(|k| own(*k).abs() <= ALIKE * largest);
-        let frame = Frame::of(self.point.phi());
+        let bases = model.bases();
+        let frame = Frame::of(model.orthonormal::<f64>(&self.point).phi());
         let mode = |group: &[usize]| {
             let shapes: Vec<_> = group.iter().map(|k| shape(&vectors.column(*k).into_owned())).collect();
             Mode {
                 squared: group.iter().map(|k| own(*k)).sum::<f64>() / group.len() as f64,
                 error: 10.0 * f64::EPSILON * largest * group.len() as f64,
-                class: frame.class(&shapes),
+                class: frame
+                    .class(&shapes.iter().map(|shape| measured(bases.as_ref(), shape)).collect::<Vec<_>>()),
                 shapes,
             }
         };
         let alike = |a: &usize, b: &usize| (own(*a) - own(*b)).abs() <= ALIKE * largest;
         let modes = moving.chunk_by(alike).map(mode).collect();
-        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi() })
+        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi(), bases })
     }
+}
+
+impl<const N: usize> Modes<N> {
+    /// The placement at rest with a shape, in bases in which the metrics are the identity.
+    pub(super) fn measured(&self, shape: &Velocity<N>) -> (Matrix<N>, Velocity<N>) {
+        let bases = self.bases.as_ref();
+        (bases.map_or(self.rest, |bases| bases.placement(&self.rest)), measured(bases, shape))
+    }
+}
+
+/// A shape in bases in which the metrics are the identity.
+fn measured<const N: usize>(bases: Option<&Bases<N>>, shape: &Velocity<N>) -> Velocity<N> {
+    bases.map_or(*shape, |bases| bases.velocity(shape))
 }
 
 /// `M` and `K` over the places, from `q' = A_qp p` and `p' = A_pq q`.
@@ -159,22 +176,14 @@ struct Frame<const N: usize> {
 impl<const N: usize> Frame<N> {
     fn of(phi: &Matrix<N>) -> Self {
         let near = |a: f64, b: f64| (a - b).abs() <= STRAY * (a + b);
-        let dense = DMatrix::from_fn(N, N, |i, a| phi[(i, a)]);
         let round =
             |size: f64| Self { left: phi / size, right: Matrix::<N>::identity(), axis: None, is_round: true };
-        let Some(SVD { u: Some(u), v_t: Some(v_t), singular_values: own }) = decomposed::<f64>(dense) else {
-            return round(1.0);
-        };
+        let Ok(TwoPolar { left, stretches: own, right }) = TwoPolar::of(phi) else { return round(1.0) };
         if (1..N).all(|a| near(own[a], own[0])) {
             return round(own[0]);
         }
         let is_axis = |c: usize| N == 3 && near(own[(c + 1) % N], own[(c + 2) % N]);
-        Self {
-            left: Matrix::<N>::from_fn(|i, a| u[(i, a)]),
-            right: Matrix::<N>::from_fn(|i, a| v_t[(a, i)]),
-            axis: (0..N).find(|c| is_axis(*c)),
-            is_round: false,
-        }
+        Self { left, right, axis: (0..N).find(|c| is_axis(*c)), is_round: false }
     }
 
     /// The class that has all of the shapes.

@@ -37,7 +37,6 @@ impl Equations {
 #[derive(Clone, Debug)]
 pub(super) struct Solution {
     pub(super) at: Column,
-    pub(super) residual: f64,
     pub(super) steps: usize,
 }
 
@@ -84,7 +83,7 @@ pub(super) fn solve(
             Some((next, there)) if !is_solved || there.values.norm() < 0.5 * residual => {
                 (at, now) = (next, there);
             }
-            _ if is_solved => return Ok(Solution { at, residual, steps }),
+            _ if is_solved => return Ok(Solution { at, steps }),
             _ => return Err(no_convergence(residual, steps)),
         }
     }

@@ -7,7 +7,6 @@ use super::branch::{Branch, BranchPoint};
 use super::modes::{Mode, Modes};
 use super::stability::StabilityVerdict;
 use crate::error::Result;
-use crate::frames::Matrix;
 use crate::report::{Curve, CurveDiagram, CurvePanel, PANEL};
 use crate::state::Phase;
 
@@ -18,19 +17,19 @@ const AMPLITUDE: f64 = 0.25;
 
 impl<const N: usize> Modes<N> {
     /// A picture: the outline of the unit disc at rest, and at either end of the vibration, in the plane of the axes in which it
-    /// moves most. One panel a mode, its first shape.
+    /// moves most, in bases in which the metrics are the identity. One panel a mode, its first shape.
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File).
     pub fn save_svg(&self, path: impl AsRef<Path>) -> Result<()> {
-        let panels = self.modes.iter().filter_map(|mode| panel(&self.rest, mode)).collect();
+        let panels = self.modes.iter().filter_map(|mode| panel(self, mode)).collect();
         let names = [(0, "at rest"), (1, "at one end"), (2, "at the other")];
         CurveDiagram::new("Modes", panels).legend(names).save_svg(path)
     }
 }
 
-fn panel<const N: usize>(rest: &Matrix<N>, mode: &Mode<N>) -> Option<CurvePanel> {
-    let shape = mode.shapes.first()?;
+fn panel<const N: usize>(modes: &Modes<N>, mode: &Mode<N>) -> Option<CurvePanel> {
+    let (rest, shape) = modes.measured(mode.shapes.first()?);
     let pairs = (0..N).flat_map(|a| (0..a).map(move |b| (b, a)));
     let inside = |(a, b): (usize, usize)| {
         [(a, a), (a, b), (b, a), (b, b)].iter().map(|entry| shape.phi_dot[*entry].powi(2)).sum::<f64>()

@@ -4,13 +4,15 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
 use super::field::{
-    confinement, depends_on_time, determinant, full, linear_motion, motion, normals, orbit, symplectic_form,
-    vector,
+    Kinds, confinement, full, linear_motion, motion, normals, orbit, symplectic_form, vector,
 };
 use super::generator::{Generator, assert_symmetry, confined, symmetries};
+use super::jacobian::JacobianMatrix;
 use super::linear::{Column, Dense, RANK, absolute_kernel, kernel, solved, span};
-use super::newton::{Equations, FLOOR, Solution, solve};
-use crate::model::{Model, Quantity};
+use super::newton::{Equations, FLOOR, solve};
+use super::symmetry::equivariances;
+use crate::inner::LogDeterminant;
+use crate::model::Model;
 use crate::state::Phase;
 
 /// Singular values at a solution that are none, relative to the largest.
@@ -110,22 +112,31 @@ pub fn relative_equilibrium<const N: usize, M: Model<N>>(
     generators.iter().try_for_each(|generator| assert_symmetry(&basis, generator))?;
     conditions.iter().try_for_each(|condition| condition.assert_among(generators.len()))?;
     let z = vector(&model.flatten(guess));
-    if depends_on_time(model, &z) {
-        return Err(AnalysisError::DependsOnTime);
-    }
+    assert_timeless(model, guess)?;
     let velocities = solved(&orbit(model, generators, &z), &motion(model, &z))?;
     let problem = Problem { model, generators, conditions };
     let start = DVector::from_iterator(z.len() + velocities.len(), z.iter().chain(&velocities).copied());
     let solution = solve(start, FLOOR, |unknowns| problem.equations(unknowns))?;
-    Ok(problem.relative_equilibrium(&solution))
+    Ok(problem.relative_equilibrium(&solution.at, solution.steps))
+}
+
+/// Checks that the equations do not contain the time.
+pub(super) fn assert_timeless<const N: usize, M: Model<N>>(
+    model: &M,
+    point: &M::Point<f64>,
+) -> Result<(), AnalysisError> {
+    let is_timeless = !JacobianMatrix::of(model, 0.0, point).contains_time();
+    is_timeless.then_some(()).ok_or(AnalysisError::DependsOnTime)
 }
 
 /// An orthonormal basis of the directions in which solutions go on, without those of symmetries: the kernel of a Jacobian by the
 /// plain array, first, and by what else there is.
 pub(super) fn free<const N: usize, M: Model<N>>(model: &M, z: &Column, jacobian: &Dense, rank: f64) -> Dense {
-    let moved = orbit(model, &symmetries(model), z).resize_vertically(jacobian.ncols(), 0.0);
+    let slopes = jacobian.view((0, 0), (z.len(), z.len())).into_owned();
+    let moved = orbit(model, &equivariances(model, z, &slopes), z).resize_vertically(jacobian.ncols(), 0.0);
     let threshold = rank * jacobian.norm() * (1.0 + moved.norm());
-    let along = span(&(&moved * absolute_kernel(&(jacobian * &moved), threshold)), rank);
+    let along = &moved * absolute_kernel(&(jacobian * &moved), threshold);
+    let along = span(&along, rank * (z.norm() + moved.norm()));
     let all = kernel(jacobian, rank);
     &all * absolute_kernel(&along.tr_mul(&all), 0.5)
 }
@@ -151,7 +162,7 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     pub(super) fn values(&self, unknowns: &Column) -> Option<Column> {
         let (z, velocities) = self.split(unknowns);
         let point = self.model.unflatten(&full::<N, M>(&z));
-        if determinant(point.phi()) <= 0.0 {
+        if !LogDeterminant::of(point.phi()).is_positive() {
             return None;
         }
         let field = self.zeta(&velocities).field(self.model, &full::<N, M>(&z));
@@ -196,22 +207,14 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
     /// What each value is a difference of. Places and momenta may be in any units: how large momenta are that are not zero
     /// follows from the places, the masses and the stiffnesses.
     fn scale(&self, jacobian: &Dense, (unknowns, values): (&Column, &Column)) -> Column {
-        let is_place = |quantity| matches!(quantity, Quantity::Position | Quantity::Placement);
-        let groups = M::DESCRIPTION.full.iter();
-        let places: Vec<bool> = groups.flat_map(|group| vec![is_place(group.quantity); group.len]).collect();
-        let kinds =
-            [true, false].map(|kind| (0..places.len()).filter(|k| places[*k] == kind).collect::<Vec<_>>());
-        let [by_mass, stiffness] = [(0, 1), (1, 0)]
-            .map(|(rows, columns)| jacobian.select_rows(&kinds[rows]).select_columns(&kinds[columns]).norm());
-        let is_held = by_mass > 0.0 && stiffness > 0.0;
-        let momentum = if is_held { (stiffness / by_mass).sqrt() } else { 1.0 };
-        let rate = if is_held { stiffness.sqrt() * by_mass.sqrt() } else { 1.0 };
+        let kinds = Kinds::of::<N, M>();
+        let ([by_mass, stiffness], momentum) = (kinds.slopes(jacobian), kinds.momentum(jacobian));
+        let rate = momentum.map_or(1.0, |_| stiffness.sqrt() * by_mass.sqrt());
+        let (momentum, kinds) = (momentum.unwrap_or(1.0), [kinds.places, kinds.momenta]);
         let own = kinds.each_ref().map(|kind| unknowns.select_rows(kind).norm());
-        let sizes = unknowns.map_with_location(|k, _, value| match places.get(k) {
-            Some(true) => own[0].max(own[1] / momentum),
-            Some(false) => own[1].max(own[0] * momentum),
-            None => value.abs().max(rate),
-        });
+        let mut sizes = unknowns.map(|value| value.abs().max(rate));
+        kinds[0].iter().for_each(|k| sizes[*k] = own[0].max(own[1] / momentum));
+        kinds[1].iter().for_each(|k| sizes[*k] = own[1].max(own[0] * momentum));
         let mut scale = values.abs() + jacobian.abs() * sizes;
         for kind in &kinds {
             let size = scale.select_rows(kind).norm();
@@ -220,19 +223,23 @@ impl<const N: usize, M: Model<N>> Problem<'_, N, M> {
         scale
     }
 
-    pub(super) fn relative_equilibrium(&self, solution: &Solution) -> RelativeEquilibrium<N, M::Point<f64>> {
-        let (z, velocities) = self.split(&solution.at);
-        let kernel = self
-            .equations(&solution.at)
-            .map_or(0, |own| free(self.model, &z, &own.jacobian, DEGENERATE).ncols());
+    pub(super) fn relative_equilibrium(
+        &self,
+        at: &Column,
+        steps: usize,
+    ) -> RelativeEquilibrium<N, M::Point<f64>> {
+        let (z, velocities) = self.split(at);
+        let (residual, kernel) = self.equations(at).map_or((f64::NAN, 0), |own| {
+            (own.values.norm(), free(self.model, &z, &own.jacobian, DEGENERATE).ncols())
+        });
         RelativeEquilibrium {
             kernel,
             expected: self.generators.len().saturating_sub(self.conditions.len()),
             point: self.model.unflatten(&full::<N, M>(&z)),
             zeta: self.zeta(&velocities),
             velocities,
-            residual: solution.residual,
-            steps: solution.steps,
+            residual,
+            steps,
         }
     }
 }
@@ -248,6 +255,10 @@ pub(super) struct Linearised<const N: usize> {
     pub(super) form: Dense,
     /// Fields of the symmetries in the basis.
     pub(super) orbit: Dense,
+    /// Those of all symmetries of the equations.
+    pub(super) moved: Dense,
+    /// The size of the point.
+    pub(super) size: f64,
 }
 
 impl<const N: usize> Linearised<N> {
@@ -257,13 +268,15 @@ impl<const N: usize> Linearised<N> {
         let basis = kernel(&normals(model, &z), RANK);
         let slopes = linear_motion(model, zeta, &z);
         let form = symplectic_form(model, &z);
-        let orbit = basis.tr_mul(&orbit(model, &symmetries, &z));
+        let fields = |symmetries: &[Generator<N>]| basis.tr_mul(&orbit(model, symmetries, &z));
         Self {
+            orbit: fields(&symmetries),
+            size: z.norm(),
+            moved: fields(&equivariances(model, &z, &slopes)),
             motion: basis.tr_mul(&slopes) * &basis,
             form: basis.tr_mul(&form) * &basis,
             symmetries,
             basis,
-            orbit,
         }
     }
 

@@ -23,6 +23,13 @@ pub struct Eigenvalue {
     pub(super) is_mixed: bool,
 }
 
+impl Eigenvalue {
+    /// Its real part, which is zero below its error.
+    pub(super) fn rate(self) -> f64 {
+        if self.value.re.abs() <= self.error { 0.0 } else { self.value.re }
+    }
+}
+
 /// The eigenvalues of a motion, by imaginary part.
 pub(super) fn spectrum(motion: &Dense, energy: Option<&Dense>) -> Result<Vec<Eigenvalue>, AnalysisError> {
     if motion.is_empty() {

@@ -5,13 +5,18 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::error::AnalysisError;
 use super::field::{linear_field, vector};
 use super::generator::Generator;
-use super::linear::{Dense, RANK, absolute_kernel, kernel, span};
+use super::linear::{Dense, RANK, absolute_kernel, from_columns, kernel, span};
 use super::relative::{Linearised, RelativeEquilibrium};
 use super::spectrum::{Eigenvalue, principal, signs, spectrum};
 use crate::model::Model;
 
 /// A part of a second variation by which it may fail to be symmetric.
 const ASYMMETRY: f64 = 1e-9;
+/// Part of the largest stiffness that may be rounding.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// How far a group goes to show whether it is bounded, and by what.
+const FAR: f64 = 1e6;
+const BOUND: f64 = 1e3;
 /// Sections of an interval in the search for a definite second variation.
 const SECTIONS: usize = 60;
 /// Rounds of that search over the generators of an isotropy group.
@@ -43,7 +48,8 @@ pub enum Doubt {
     ZeroMode,
     /// Equal eigenvalues have energies of both signs.
     MixedSigns,
-    /// The symmetries that keep the momentum are not compact: motions may drift along them.
+    /// The symmetries that keep the momentum change the others without bound, or neighbours with another `p` have fewer: motions
+    /// may leave, though energy and momentum are kept.
     NonCompact,
     /// Neither damped nor growing.
     Neutral,
@@ -113,14 +119,24 @@ impl<const N: usize> Stability<N> {
         self.eigenvalues.iter().copied().max_by(|a, b| a.value.re.total_cmp(&b.value.re))
     }
 
-    /// The square of the difference of the two eigenvalues nearest to where a growing one oscillates: negative while both are
-    /// frequencies, positive where they grow and fall, smooth between.
-    pub(super) fn discriminant(&self, growing: Complex<f64>) -> Option<f64> {
+    /// The two eigenvalues nearest to where a growing one oscillates.
+    pub(super) fn nearest(&self, growing: Complex<f64>) -> Option<[Eigenvalue; 2]> {
         let target = Complex::new(0.0, growing.im);
-        let mut near: Vec<Complex<f64>> = self.eigenvalues.iter().map(|one| one.value).collect();
-        near.sort_by(|a, b| (a - target).norm().total_cmp(&(b - target).norm()));
-        let [a, b, ..] = near.as_slice() else { return None };
-        Some((a - b).powi(2).re)
+        let mut near = self.eigenvalues.clone();
+        near.sort_by(|a, b| (a.value - target).norm().total_cmp(&(b.value - target).norm()));
+        near.first_chunk().copied()
+    }
+
+    /// The square of their difference: negative while both are frequencies, positive where they grow and fall, smooth between.
+    pub(super) fn discriminant(&self, growing: Complex<f64>) -> Option<f64> {
+        self.nearest(growing).map(|[a, b]| (a.value - b.value).powi(2).re)
+    }
+
+    /// The stiffnesses; what rounding leaves of one that vanishes is zero.
+    pub(super) fn rounded_stiffnesses(&self) -> impl Iterator<Item = f64> + '_ {
+        let largest = self.stiffnesses.iter().fold(0.0_f64, |largest, one| largest.max(one.abs()));
+        let is_some = move |one: f64| one.abs() > ROUNDING * largest;
+        self.stiffnesses.iter().map(move |one| if is_some(*one) { *one } else { 0.0 })
     }
 }
 
@@ -136,12 +152,20 @@ struct Slice {
 impl Slice {
     fn of<const N: usize>(at: &Linearised<N>) -> Self {
         let keeping = kernel(&at.orbit.tr_mul(&at.form), RANK);
-        let moments = at.orbit.tr_mul(&at.form) * &at.orbit;
-        let size = (at.orbit.norm() * at.orbit.norm() * at.form.norm()).max(f64::MIN_POSITIVE);
-        let stays = absolute_kernel(&moments, RANK * size);
-        let along = span(&keeping.tr_mul(&(&at.orbit * &stays)), RANK);
+        let moments = |orbit: &Dense| {
+            let size = (at.orbit.norm() * orbit.norm() * at.form.norm()).max(f64::MIN_POSITIVE);
+            (at.orbit.tr_mul(&at.form) * orbit, RANK * size)
+        };
+        let keeps = |(moments, threshold): &(Dense, f64)| absolute_kernel(moments, *threshold);
+        let own = moments(&at.orbit);
+        let along = keeping.tr_mul(&(&at.moved * keeps(&moments(&at.moved))));
+        let along = span(&along, RANK * (at.size + at.moved.norm()));
         let columns = &keeping * kernel(&along.transpose(), RANK);
-        Self { columns, along_orbit: along.ncols(), is_compact: is_compact(&at.symmetries, &stays) }
+        Self {
+            columns,
+            along_orbit: along.ncols(),
+            is_compact: is_compact(&at.symmetries, (&own.0, own.1), &keeps(&own)),
+        }
     }
 
     fn form(&self, form: &Dense) -> Dense {
@@ -157,31 +181,45 @@ impl Slice {
     }
 }
 
-/// The algebra has an inner product that its group keeps: Killing's form is negative beside the centre.
-fn is_compact<const N: usize>(symmetries: &[Generator<N>], stays: &Dense) -> bool {
-    let elements: Vec<Generator<N>> =
-        stays.column_iter().map(|own| Generator::sum(own.iter().copied().zip(symmetries))).collect();
-    if elements.is_empty() {
-        return true;
+/// Whether what keeps the momentum keeps an inner product on the algebra of all that keep `p`, translations apart: then energy and
+/// momentum hold the motion (G. W. Patrick, J. Geom. Phys. 9 (1992) 111; translations come first, of which `p` is left as a number:
+/// N. E. Leonard, J. E. Marsden, Physica D 105 (1997) 130).
+fn is_compact<const N: usize>(
+    symmetries: &[Generator<N>],
+    (moments, threshold): (&Dense, f64),
+    stays: &Dense,
+) -> bool {
+    let still = |one: &Generator<N>| Generator { drift: Generator::zero().drift, ..*one }.components();
+    let all = from_columns(3 * N * N + N, &symmetries.iter().map(still).collect::<Vec<_>>());
+    let turned = absolute_kernel(&all, RANK).tr_mul(moments);
+    let rank = |first: usize, rows: usize| span(&all.rows(first, rows).into_owned(), RANK).ncols();
+    // Others keep other momenta, where what moves the centre moves the body.
+    if turned.norm() <= threshold
+        && rank(0, 2 * N * N) + rank(2 * N * N, N * N) > rank(0, all.nrows())
+        && rank(0, all.nrows()) < all.ncols()
+    {
+        return false;
     }
-    let components = DMatrix::from_columns(&elements.iter().map(Generator::components).collect::<Vec<_>>());
-    let Ok(inverse) = components.pseudo_inverse(RANK) else { return false };
-    let adjoint: Vec<Dense> = elements
-        .iter()
-        .map(|a| {
-            let brackets: Vec<_> = elements.iter().map(|b| &inverse * a.bracket(b).components()).collect();
-            DMatrix::from_columns(&brackets)
-        })
-        .collect();
-    let killing =
-        DMatrix::from_fn(elements.len(), elements.len(), |a, b| (&adjoint[a] * &adjoint[b]).trace());
-    let stacked: Vec<_> = adjoint.iter().map(|one| DVector::from_column_slice(one.as_slice())).collect();
-    let values = killing.symmetric_eigenvalues();
-    let size = values.amax().max(1.0);
-    let negative = values.iter().filter(|value| **value < -RANK * size).count();
-    let positive = values.iter().any(|value| *value > RANK * size);
-    let centre = absolute_kernel(&DMatrix::from_columns(&stacked), RANK).ncols();
-    !positive && negative + centre == elements.len()
+    let [whole, own] = [&absolute_kernel(&turned, threshold), stays].map(|own| span(&(&all * own), RANK));
+    let adjoint = |one: &Generator<N>, basis: &Dense| {
+        let brackets =
+            basis.column_iter().map(|other| one.bracket(&Generator::of(other.as_slice())).components());
+        basis.tr_mul(&from_columns(basis.nrows(), &brackets.collect::<Vec<_>>()))
+    };
+    let elements: Vec<Generator<N>> = own.column_iter().map(|one| Generator::of(one.as_slice())).collect();
+    let within: Vec<Dense> = elements.iter().map(|one| adjoint(one, &own)).collect();
+    let killing = DMatrix::from_fn(within.len(), within.len(), |a, b| (&within[a] * &within[b]).trace());
+    let stacked: Vec<_> = within.iter().map(|one| DVector::from_column_slice(one.as_slice())).collect();
+    let centre = absolute_kernel(&from_columns(within.len() * within.len(), &stacked), RANK);
+    let values = principal(&killing);
+    let negative = values.iter().filter(|value| **value < -RANK).count();
+    let is_bounded = |factors: &[f64]| {
+        let action = adjoint(&Generator::sum(factors.iter().copied().zip(&elements)), &whole);
+        let size = action.norm();
+        size <= RANK || (action * (FAR / size)).exp().norm() <= BOUND
+    };
+    let negative_beside_centre = negative + centre.ncols() == within.len();
+    negative_beside_centre && centre.column_iter().all(|one| is_bounded(one.as_slice()))
 }
 
 /// Generators that do not move the point, with the derivatives of their fields, by which `zeta` may change.

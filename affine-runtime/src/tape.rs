@@ -10,14 +10,14 @@ use crate::scalar::{Real, Scalar};
 
 /// What an operation reads: what an earlier one gave, or a number that does not depend on the arguments.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Operand {
+pub(crate) enum Operand {
     Node(usize),
     Constant(f64),
 }
 
 impl Operand {
     /// What is read.
-    pub(super) fn of<T: Scalar>(self, values: &[T]) -> T {
+    pub(crate) fn of<T: Scalar>(self, values: &[T]) -> T {
         match self {
             Self::Node(node) => values[node],
             Self::Constant(value) => T::constant(value, 0.0),
@@ -26,13 +26,13 @@ impl Operand {
 }
 
 /// An operation with what it reads; those of one or two numbers read zeros besides.
-pub(super) type Operation = (Kind, [Operand; 3]);
+pub(crate) type Operation = (Kind, [Operand; 3]);
 
 macro_rules! operations {
     ({ $($operator:ident $operate:ident $assign:ident $operate_assign:ident;)* } { $($name:ident $function:ident;)* }) => {
         /// What is done.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub(super) enum Kind {
+        pub(crate) enum Kind {
             Argument,
             Neg,
             /// `a*b + c`.
@@ -47,7 +47,7 @@ macro_rules! operations {
         }
 
         impl Kind {
-            pub(super) fn of<T: Scalar>(self, [a, b, c]: [T; 3]) -> T {
+            pub(crate) fn of<T: Scalar>(self, [a, b, c]: [T; 3]) -> T {
                 match self {
                     Self::Argument => a,
                     Self::Neg => -a,
@@ -133,7 +133,7 @@ thread_local! {
 
 /// Runs `work`, which is given that many arguments, and returns what is recorded with the operands that it returns.
 /// What depends on no argument is computed and not recorded.
-pub(super) fn recorded(
+pub(crate) fn recorded(
     arguments: &[f64],
     work: impl FnOnce(&[Recorded]) -> Vec<Recorded>,
 ) -> (Vec<Operation>, Vec<Operand>) {
@@ -147,7 +147,7 @@ pub(super) fn recorded(
 
 /// A double that is recorded where it depends on an argument.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Recorded {
+pub(crate) struct Recorded {
     value: f64,
     node: Option<usize>,
 }
