@@ -210,7 +210,8 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     }
 
     /// The motion goes on from another point: that is reduced anew, and the integration starts again, or the closed form
-    /// where the new point has one. An error of `change` ends the run. At a wall `change` turns the rate of the function round;
+    /// where the new point has one. An error of `change`, and a point that is none, end the run,
+    /// [`Reason::Change`](super::Reason::Change). At a wall `change` turns the rate of the function round;
     /// one that leaves it at rest there ends the run, [`Reason::Accumulation`](super::Reason::Accumulation).
     #[must_use]
     pub fn change(self, change: impl Fn(f64, &P) -> Result<P> + 'a) -> Self {

@@ -156,7 +156,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
             }
             (Way::ClosedForm(motion, t), _) => {
                 motion.resolved(t_end)?;
-                motion.reached(model, t_end)?;
+                motion.reached(model, *t, t_end)?;
                 (self.begin, *t) = (*t, t_end);
                 Ok(())
             }

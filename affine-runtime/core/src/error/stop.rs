@@ -29,7 +29,8 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it.
+        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it; 0 where a closed form
+        /// turns inside out and back on the way to the time asked for.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
@@ -156,7 +157,8 @@ pub enum Reason {
         /// How often the event has changed the point.
         count: u64,
     },
-    /// The point that an event should have been changed to is none.
+    /// The phase point to which an event should have changed the body is none: the function gave an error, numbers that are not
+    /// finite, or a placement that does not keep orientation.
     Change {
         /// Name of the event.
         #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
@@ -267,9 +269,11 @@ impl fmt::Display for Reason {
                  faster, or the last one left the motion at rest where the event happens; let the event stop the run, or \
                  go on from its end with a model of the motion in contact"
             ),
-            Reason::Change { event } => {
-                write!(f, "the event `{event}` should change the phase point, and its function gave an error")
-            }
+            Reason::Change { event } => write!(
+                f,
+                "the event `{event}` should change the phase point, and what its function gave is none: an error, numbers that \
+                 are not finite, or det phi <= 0; give a phase point of the model, or let the event stop the run"
+            ),
             Reason::Interrupted(Callback::Progress) => f.write_str("the progress callback ended the run"),
             Reason::Interrupted(Callback::Observer) => f.write_str("the observer ended the run"),
         }
