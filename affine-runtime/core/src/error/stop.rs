@@ -94,6 +94,21 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
+    /// Friction takes velocities away so fast that steps by splitting of an order above 2, some of whose pieces go back in time,
+    /// amplify what it has taken.
+    Friction {
+        /// The order.
+        order: usize,
+        /// The rate at which velocities are taken away.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        rate: f64,
+        /// The longest step of this order under such friction.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        longest: f64,
+        /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        t: f64,
+    },
     /// A method that forms `det phi`, Runge-Kutta-Nystrom or splitting under a potential in `q` or `D`, where it or its
     /// inverse is no normal number.
     Range {
@@ -228,6 +243,12 @@ impl fmt::Display for Reason {
                 "the mass matrix degenerates at t = {t}, its weakest pivot is {weakest:e} of what it is a difference of: \
                  the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
                  coefficients whose sum is definite at every placement"
+            ),
+            Reason::Friction { order, rate, longest, t } => write!(
+                f,
+                "friction takes velocities away at a rate of {rate:.2e} at t = {t}: splitting of order {order}, like all above 2, goes \
+                 back in time on its way, where friction gives back what it has taken, and more the longer the step; take order \
+                 2, steps of at most {longest:.1e}, or Method::Radau {{ stages: None }}"
             ),
             Reason::Range { q, t } => write!(
                 f,

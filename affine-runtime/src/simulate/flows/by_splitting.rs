@@ -8,9 +8,11 @@ use crate::inner::{SplittingInLanes, Sum, of_lane};
 use crate::integrate::Failure;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
+use crate::simulate::friction::is_followed;
 use crate::simulate::in_lanes::{EIGHT, Reduced, Together};
 use crate::simulate::layout::is_looked_after;
 use crate::simulate::mechanics::Moving;
+use crate::simulate::method::Method;
 use crate::simulate::methods::by_splitting;
 use crate::simulate::motion::{Followed, PointOf};
 use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
@@ -21,6 +23,7 @@ where
     H::Model: InLanes<N> + Splitting<N>,
 {
     integration: SplittingInLanes<F64x8, Reduced<N, H, F64x8>, Moved<N, H>>,
+    method: Method,
     has_body: [bool; EIGHT],
     /// Points from which no step has been taken.
     anew: [Option<PointOf<N, H>>; EIGHT],
@@ -42,6 +45,7 @@ where
         let integration = SplittingInLanes::new(Moved(together), order, t0, step)?;
         Some(integration.map(|integration| Self {
             integration,
+            method: Method::Splitting { order, step },
             has_body: [false; EIGHT],
             anew: [None; EIGHT],
         }))
@@ -101,7 +105,9 @@ where
         let (model, (t, _)) = (handle.model(), self.integration.end());
         let (state, constants) = model.reduce(t, point);
         let has_value = !H::Model::DESCRIPTION.custom_potential || model.hamiltonian(t, point).is_finite();
-        let fits = has_value && !is_looked_after(model, point) && stands::<N, H>(&state);
+        let moving = Moving { handle: Followed(model), begin: by_splitting };
+        let is_followed = || is_followed(&moving, self.method, (t, point)).is_ok();
+        let fits = has_value && is_followed() && !is_looked_after(model, point) && stands::<N, H>(&state);
         if fits {
             self.integration.put(lane, &state);
             self.integration.pieces_mut().0.put(lane, handle.clone(), constants);
