@@ -76,6 +76,36 @@ fn components_that_there_are_not() {
     sweep(Indices);
 }
 
+struct Levels;
+
+impl Sweep for Levels {
+    fn over<const N: usize, M: Model<N>>(&self, model: &M, start: M::Point<f64>, methods: &[Method]) {
+        for &method in methods {
+            let refused_level = |event: Event<'static, N, M::Point<f64>>, given: f64| {
+                let run = sound().of(model, start, method).event(event.named("gate"));
+                let reason = refused(run, &["`gate`", "levels are finite"], &format!("{method:?}"));
+                let Reason::Setting(Setting::EventLevel { event: "gate", given: told }) = reason else {
+                    panic!("{method:?}: {reason}")
+                };
+                assert!(told == given || told.is_nan() && given.is_nan(), "{method:?}: {told}");
+            };
+            for given in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                refused_level(Event::determinant(given), given);
+                refused_level(Event::position(1, given), given);
+            }
+            for given in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+                refused_level(Event::largest_stretch(given), given);
+                refused_level(Event::smallest_stretch(given), given);
+            }
+        }
+    }
+}
+
+#[test]
+fn levels_that_nothing_has() {
+    sweep(Levels);
+}
+
 struct Changes;
 
 impl Sweep for Changes {

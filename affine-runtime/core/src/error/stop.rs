@@ -71,7 +71,9 @@ pub enum Reason {
         t: f64,
     },
     /// The energy, less the work of the forces that no potential has, is no longer what it was at the start: the steps have
-    /// lost the motion, as they do where they pass over a singularity.
+    /// lost the motion, as they do where they pass over a singularity. Explicit steps that are too long for a stiff vibration damp
+    /// it, and its energy is lost with it: at a looser tolerance that is within what is allowed, and at a tighter one steps follow
+    /// the vibration; in between the run ends here.
     EnergyLost {
         /// `|H(t) - H(t0) - W(t)|`.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
