@@ -49,11 +49,8 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// [`InvalidData`](io::ErrorKind::InvalidData) for a shape without points, a triangle of points that it does not have, numbers
     /// that are none in single precision, and more than 4 GiB.
     pub fn to_glb(&self, shape: &Shape<N>) -> io::Result<Vec<u8>> {
-        if !shape.is_whole() {
-            return Err(io::Error::new(
-                io::ErrorKind::InvalidData,
-                "triangles of points that a shape does not have",
-            ));
+        if let Some(fault) = shape.fault() {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, fault));
         }
         let frames = frames(self);
         let mut document = Document::new(self.description().name);

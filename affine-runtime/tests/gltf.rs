@@ -308,6 +308,9 @@ fn what_no_file_can_hold_is_refused() {
         let error = run.save_glb("no such folder/body.glb", &shape).unwrap_err().to_string();
         assert!(error.contains("the format does not hold it") && !error.contains("permissions"), "{error}");
     }
+    let said = |shape: Shape<3>| run.to_glb(&shape).unwrap_err().to_string();
+    assert_eq!(said(Shape::points_alone([])), "a shape without points");
+    assert!(said(Shape::mesh([point; 3], [[0, 1, 3]])).contains("triangles of points"));
     let path = std::env::temp_dir().join(format!("affine-{}.glb", std::process::id()));
     run.save_glb(&path, &Shape::points_alone([point])).unwrap();
     assert_eq!(std::fs::read(&path).unwrap(), run.to_glb(&Shape::points_alone([point])).unwrap());

@@ -111,5 +111,38 @@ fn by_its_multiplier() {
         close("Sigma_hat", (spins[0] - spins[1]).norm(), spins[1].norm());
         close("x", (found.x() - expected.x()).norm(), 1.0 + expected.x().norm());
         close("p", (found.p() - expected.p()).norm(), 1.0 + expected.p().norm());
+        works(&by_rattle);
+    }
+}
+
+/// The work of what gives energy closes the balance, and nothing is said to be lost.
+fn works<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>) {
+    let balance = run.power_balance().unwrap();
+    assert!(balance.relative() <= TWO_METHODS && balance.work.abs() > 1e-3 * balance.scale, "{balance}");
+    assert_eq!(run.computation().energy_defect, 0.0, "{}", run.why());
+    assert!(!run.why().to_string().contains("energy is off"), "{}", run.why());
+}
+
+/// RATTLE under a potential that contains the time, with a centre of mass that the drive moves, and without one.
+#[test]
+fn by_its_multiplier_under_a_drive() {
+    #[affine_model(
+        dim = 3,
+        constraint = isochoric,
+        kinetic(dalembert = diag(1, 1.5, 2), space_translation = 1),
+        potential = tr(G) + sin(t)*x[1],
+    )]
+    struct Pushed;
+    #[affine_model(dim = 2, constraint = isochoric, kinetic(dalembert = 1), potential = tr(G)*cos(t))]
+    struct Driven;
+    for method in [Method::Rattle { order: 8, step: 0.02 }, Method::Rattle { order: 4, step: 0.002 }] {
+        for start in starts::<3>(Constraint::Isochoric) {
+            let at = Pushed.at_velocity(start.x, start.phi, start.p, start.phi * start.spin * 0.2).unwrap();
+            works(&Simulation::new(&Pushed, at).from(0.5).until(1.5).method(method).run().unwrap());
+        }
+        for start in starts::<2>(Constraint::Isochoric) {
+            let at = Driven.at_velocity(start.phi, start.phi * start.spin).unwrap();
+            works(&Simulation::new(&Driven, at).from(0.5).until(1.5).method(method).run().unwrap());
+        }
     }
 }

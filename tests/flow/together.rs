@@ -221,6 +221,7 @@ fn stops_alone(way: Method) {
         };
         // What rounding left out of its state stays behind in its lane, and so do the lengths of its steps.
         let is_near = if way == METHOD { (t - alone).abs() < 1e-14 } else { (t - alone).abs() < TOLERANCE };
+        assert!(stop.steps == own.steps || way != METHOD && stop.steps > 1, "{stop} {own}");
         assert!(is_near && (stop.t == own.t || way != METHOD && stop.t > own.t), "{stop} {own}");
     }
     for (number, (point, body)) in flows.points().zip(&alone).enumerate() {

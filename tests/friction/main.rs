@@ -4,3 +4,4 @@
 mod models;
 mod motions;
 mod scenes;
+mod splitting;

@@ -76,6 +76,36 @@ fn components_that_there_are_not() {
     sweep(Indices);
 }
 
+struct Levels;
+
+impl Sweep for Levels {
+    fn over<const N: usize, M: Model<N>>(&self, model: &M, start: M::Point<f64>, methods: &[Method]) {
+        for &method in methods {
+            let refused_level = |event: Event<'static, N, M::Point<f64>>, given: f64| {
+                let run = sound().of(model, start, method).event(event.named("gate"));
+                let reason = refused(run, &["`gate`", "levels are finite"], &format!("{method:?}"));
+                let Reason::Setting(Setting::EventLevel { event: "gate", given: told }) = reason else {
+                    panic!("{method:?}: {reason}")
+                };
+                assert!(told == given || told.is_nan() && given.is_nan(), "{method:?}: {told}");
+            };
+            for given in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                refused_level(Event::determinant(given), given);
+                refused_level(Event::position(1, given), given);
+            }
+            for given in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+                refused_level(Event::largest_stretch(given), given);
+                refused_level(Event::smallest_stretch(given), given);
+            }
+        }
+    }
+}
+
+#[test]
+fn levels_that_nothing_has() {
+    sweep(Levels);
+}
+
 struct Changes;
 
 impl Sweep for Changes {
@@ -87,25 +117,24 @@ impl Sweep for Changes {
             // A point that is none.
             let nan = |_: f64, p: &M::Point<f64>| Ok(p.with_entries(&mut || f64::NAN));
             let halt = stops(simulation().event(at(0.2).change(nan)), &label("NaN"));
-            assert_eq!(halt.stop.reason, Reason::NotFinite, "{method:?}");
+            let none = Reason::Change { event: "change" };
+            assert_eq!(halt.stop.reason, none, "{method:?}");
             let flat = |_: f64, p: &M::Point<f64>| Ok(p.with_entries(&mut || 0.0));
             let halt = stops(simulation().event(at(0.2).change(flat)), &label("a point"));
-            let Reason::Placement { determinant, t, .. } = halt.stop.reason else {
-                panic!("{method:?}: {halt}")
-            };
-            assert!(determinant == 0.0 && (t - 0.2).abs() < 1e-9, "{halt}");
+            assert_eq!(halt.stop.reason, none, "{method:?}");
+            assert!(
+                halt.trajectory.events().last().is_some_and(|event| (event.t - 0.2).abs() < 1e-9),
+                "{halt}"
+            );
             // The errors of its function.
-            for (error, is_named) in [
-                (affine_runtime::Error::CoincidentStretches, true),
-                (affine_runtime::Error::NotFinite { quantity: "p" }, false),
+            for error in [
+                affine_runtime::Error::CoincidentStretches,
+                affine_runtime::Error::NotFinite { quantity: "p" },
+                affine_runtime::Error::Placement { determinant: -1.0 },
             ] {
                 let change = move |_: f64, _: &M::Point<f64>| Err(error.clone());
                 let halt = stops(simulation().event(at(0.2).change(change)), &label("an error"));
-                assert_eq!(
-                    matches!(halt.stop.reason, Reason::Change { event: "change" }),
-                    is_named,
-                    "{halt}"
-                );
+                assert_eq!(halt.stop.reason, none, "{method:?}");
                 assert!(halt.stop.t <= 0.2, "{halt}");
             }
             // A function with a memory, which happens without end.

@@ -66,7 +66,8 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
     let Kept { moving, at_rest, rotations } = body.kept(arena, bases.as_ref())?;
     let closed_form = body.closed_form(arena);
     let chart = motion.full_chart(arena);
-    let full = body.full_equations(arena, &chart, at_points, &mut coefficients)?;
+    // The plain array has no place for the work.
+    let full = body.full_equations(arena, &chart, (at_points, false), &mut coefficients)?;
     let unconstrained = match &free {
         Some(free) => Some(unconstrained::equations(arena, free, (at_points, &forces), &mut coefficients)?),
         None => None,

@@ -30,6 +30,10 @@ impl Regularity {
         let mut found = Self { negative: 0, weakest: 1.0 };
         for k in 0..K {
             let pivot = rest[at(k, k)];
+            if pivot == 0.0 {
+                // Nothing is left to divide by.
+                return Self { weakest: 0.0, ..found };
+            }
             found = found.and(Self { negative: usize::from(pivot < 0.0), weakest: pivot.abs() / sizes[k] });
             for i in k + 1..K {
                 let factor = rest[at(k, i)] / pivot;
@@ -104,6 +108,10 @@ mod tests {
         // [[1, 3], [3, 9]]
         let found = Regularity::of::<2, 3>([1.0, 3.0, 9.0], [1.0, 9.0]);
         assert!(!found.is_regular() && found.weakest == 0.0);
+        // A pivot before the last, and all of them.
+        assert_eq!(Regularity::of::<2, 3>([0.0, 3.0, 9.0], [1.0, 9.0]).weakest, 0.0);
+        assert_eq!(Regularity::of::<3, 6>([0.0; 6], [2.0; 3]).weakest, 0.0);
+        assert_eq!(Regularity::of::<1, 1>([0.0], [0.0]).weakest, 0.0);
         // The first pivot is a difference that cancels.
         assert!(!Regularity::of::<1, 1>([1e-16], [2.0]).is_regular());
         assert!(!Regularity::of::<1, 1>([f64::NAN], [1.0]).is_regular());

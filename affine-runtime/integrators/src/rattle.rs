@@ -40,7 +40,10 @@ const START: f64 = 1e-10;
 ///
 /// The equations are those of the body without constraint: the state holds the groups `phi` and `Pi`, with `x` and `p`
 /// or without, and its time derivative is `T'(Pi)` and the force. A multiple of `adj(phi)` in the force is immaterial.
-/// One evaluation for each step of RATTLE; at the start two and one for each component of the momenta, from which the
+/// Where the state holds the work too, whose time derivative is the power, a step adds `h/2` times the powers at its ends: with
+/// that it is as symmetric, and compositions give the work to their order.
+///
+/// One evaluation for each step of RATTLE, two where the state holds the work; at the start two and one for each component of the momenta, from which the
 /// matrix of `T'` is read.
 pub type Rattle<const N: usize, S, F> = Equal<RattleSteps<N, S, F>>;
 
@@ -68,7 +71,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<RattleSteps
     /// The integration at its start; `groups` lay out the state.
     ///
     /// # Errors
-    /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, and velocities are
+    /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, with the work or without, and velocities are
     /// linear in the momenta and independent of the placement; [`Failure::OffConstraint`] where the start is not on the
     /// constraints; [`Failure::NotFinite`]; [`Failure::StepUnderflow`] where `step` is not positive, or gives more
     /// steps than there are floating-point times.
@@ -167,11 +170,17 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> RattleSteps<N, S,
         }
         state = state.plus(&rise);
 
-        let rates = (self.f)(end, &state.value);
+        let mut rates = (self.f)(end, &state.value);
         self.evaluations += 1;
         state = state.plus(&self.layout.kick(&rates, 0.5 * h));
         let normal = self.normal(&state.value);
         state = constraint::tangent(&self.layout, state, &normal);
+        if self.layout.has_work() {
+            // The power is that of the velocities at the end, which the forces there have changed.
+            rates = (self.f)(end, &state.value);
+            self.evaluations += 1;
+            state = state.plus(&self.layout.work([&begin.rates, &rates], h));
+        }
         if !is_finite(&rates) || !is_finite(&state.value) {
             return Err(Failure::NotFinite);
         }

@@ -138,10 +138,13 @@ impl<const N: usize> Shape<N> {
         &self.triangles
     }
 
-    /// There are points, and all that triangles name.
-    pub(super) fn is_whole(&self) -> bool {
+    /// What is wrong with it: there are points, and all that triangles name.
+    pub(super) fn fault(&self) -> Option<&'static str> {
         let mut corners = self.triangles.iter().flatten().flatten();
-        !self.points.is_empty() && corners.all(|corner| (*corner as usize) < self.points.len())
+        if corners.any(|corner| (*corner as usize) >= self.points.len()) {
+            return Some("triangles of points that the shape does not have");
+        }
+        self.points.is_empty().then_some("a shape without points")
     }
 }
 

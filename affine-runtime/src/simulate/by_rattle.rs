@@ -57,6 +57,7 @@ fn canonical<const N: usize, R: Unconstrained>(free: &R, t: f64, start: &impl Ph
                     Quantity::Position => x[k],
                     Quantity::LinearMomentum => p[k],
                     Quantity::Placement => phi[(k / N, k % N)],
+                    Quantity::Work => 0.0,
                     _ => pi[(k / N, k % N)],
                 };
             }
@@ -82,6 +83,7 @@ fn point<const N: usize, R: Unconstrained, P: Phase<N>>(state: &R::State, like: 
             Quantity::Position => centre[0].copy_from_slice(components),
             Quantity::LinearMomentum => centre[1].copy_from_slice(components),
             Quantity::Placement => phi = Matrix::<N>::from_row_slice(components),
+            Quantity::Work => {}
             _ => pi = Matrix::<N>::from_row_slice(components),
         }
     }

@@ -66,9 +66,10 @@ impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
         }
     }
 
-    /// The phase point at a time, which is before any collapse: none but that of a straight line loses its orientation.
-    pub(super) fn reached(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<P, Reason> {
-        self.stands(model, t)?;
+    /// The phase point at a time, which is before any collapse: none but that of a straight line loses its orientation. `good` is
+    /// the time of the last good one.
+    pub(super) fn reached(&self, model: &dyn Mechanics<N, P>, good: f64, t: f64) -> Result<P, Reason> {
+        self.stands(model, good, t)?;
         let point = self.at(model, t);
         let may_collapse = matches!(self.geodesic.motion, Orbit::Straight { .. });
         match check(t, &point) {
@@ -80,11 +81,13 @@ impl<const N: usize, P: Phase<N>> ClosedForm<N, P> {
     }
 
     /// Refuses a time behind a collapse.
-    fn stands(&self, model: &dyn Mechanics<N, P>, t: f64) -> Result<(), Reason> {
+    fn stands(&self, model: &dyn Mechanics<N, P>, good: f64, t: f64) -> Result<(), Reason> {
         match self.collapse {
             Some(end) if self.is_behind(t, end) => {
-                let determinant = LogDeterminant::of(self.at(model, t).phi()).to_f64();
-                let rate = Some(rate_of_determinant(model, &self.at(model, end)));
+                let met = LogDeterminant::of(self.at(model, t).phi());
+                // Where the body has turned back by then, the first bad point is the zero.
+                let determinant = if met.is_positive() { 0.0 } else { met.to_f64() };
+                let rate = Some(rate_of_determinant(model, &self.at(model, good)));
                 Err(Reason::Placement { determinant, rate, t: end })
             }
             _ => Ok(()),
@@ -126,7 +129,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 return Ok(());
             }
             let Some(t) = due else { break };
-            let point = motion.reached(model, t)?;
+            let point = motion.reached(model, self.trajectory.end.0, t)?;
             // An event at that very time has it recorded already.
             if self.schedule.take_through(t, self.backward).is_some() {
                 self.record(t, (point, 0.0))?;
@@ -135,7 +138,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             self.passed(vec![t.to_bits()]);
             self.report(t)?;
         }
-        let end = motion.reached(model, t_end)?;
+        let end = motion.reached(model, self.trajectory.end.0, t_end)?;
         self.reach(t_end, (end, 0.0))
     }
 

@@ -260,11 +260,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         if k >= of {
             return Err(Setting::Shard { k, of });
         }
-        for event in (self.events)() {
-            if let Some(index) = event.out_of_range {
-                return Err(Setting::EventIndex { event: event.name, index });
-            }
-        }
+        (self.events)().iter().try_for_each(Event::checked)?;
         self.plan.checked(&H::Model::DESCRIPTION)
     }
 

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::distortion::tells;
 use crate::decompose::LinearMap;
-use crate::error::Result;
+use crate::error::{Result, Setting};
 use crate::frames::Matrix;
 use crate::inner::LogDeterminant;
 use crate::metrics::Bases;
@@ -85,7 +85,9 @@ pub struct Event<'a, const N: usize, P> {
     pub(super) direction: Direction,
     pub(super) action: Action<'a, P>,
     /// An index that no phase point of this dimension has.
-    pub(super) out_of_range: Option<usize>,
+    out_of_range: Option<usize>,
+    /// A level that is no number, or none of a stretch.
+    no_level: Option<f64>,
 }
 
 /// Changes of sign that count, as a run meets them: a run backward in time meets a rising function falling.
@@ -139,7 +141,13 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
             direction: Direction::Any,
             action: Action::Record,
             out_of_range: None,
+            no_level: None,
         }
+    }
+
+    fn at_level(self, value: f64, least: f64) -> Self {
+        let is_level = value.is_finite() && value > least;
+        Self { no_level: Some(value).filter(|_| !is_level), ..self }
     }
 
     /// A function of the placement in orthonormal bases.
@@ -155,6 +163,7 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
         Self::of_placement("det phi", move |phi| {
             if tells(phi, value) { LogDeterminant::of(phi).to_f64() - value } else { f64::NAN }
         })
+        .at_level(value, f64::NEG_INFINITY)
     }
 
     /// `max_a Q_a = value`, by logarithms, with the model's metrics.
@@ -174,6 +183,7 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
         Self::of_placement(name, move |phi| {
             phi.log_stretches().into_iter().reduce(choice).unwrap_or(f64::NAN) - logarithm
         })
+        .at_level(value, 0.0)
     }
 
     /// `x[i] = value`, `i` from 1.
@@ -182,7 +192,8 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
         let component = move |point: &P| point.x().iter().nth(i.wrapping_sub(1)).copied();
         let event =
             Self::new("x", move |_, point| component(point).map_or(f64::NAN, |component| component - value));
-        Self { out_of_range: Some(i).filter(|i| !(1..=N).contains(i)), ..event }
+        let out_of_range = Some(i).filter(|i| !(1..=N).contains(i));
+        Self { out_of_range, ..event.at_level(value, f64::NEG_INFINITY) }
     }
 
     /// The same event with another name.
@@ -210,11 +221,27 @@ impl<'a, const N: usize, P: Phase<N>> Event<'a, N, P> {
     }
 
     /// The motion goes on from another point: that is reduced anew, and the integration starts again, or the closed form
-    /// where the new point has one. An error of `change` ends the run. At a wall `change` turns the rate of the function round;
+    /// where the new point has one. An error of `change`, and a point that is none, end the run,
+    /// [`Reason::Change`](super::Reason::Change). At a wall `change` turns the rate of the function round;
     /// one that leaves it at rest there ends the run, [`Reason::Accumulation`](super::Reason::Accumulation).
     #[must_use]
     pub fn change(self, change: impl Fn(f64, &P) -> Result<P> + 'a) -> Self {
         Self { action: Action::Change(Box::new(change)), ..self }
+    }
+}
+
+impl<const N: usize, P> Event<'_, N, P> {
+    /// Its function can be what it is held against.
+    ///
+    /// # Errors
+    /// [`Setting::EventIndex`], [`Setting::EventLevel`].
+    pub(super) fn checked(&self) -> core::result::Result<(), Setting> {
+        let event = self.name;
+        match (self.out_of_range, self.no_level) {
+            (Some(index), _) => Err(Setting::EventIndex { event, index }),
+            (None, Some(given)) => Err(Setting::EventLevel { event, given }),
+            (None, None) => Ok(()),
+        }
     }
 }
 

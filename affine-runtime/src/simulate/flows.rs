@@ -18,7 +18,7 @@ use super::stepped::{Stepped, placed_at};
 use crate::capability::{InLanes, Splitting};
 use crate::error::{Reason, Setting, Stop};
 use crate::inner::step_count;
-use crate::integrate::FusedArithmetic;
+use crate::integrate::{FusedArithmetic, Statistics};
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
 use by_error::ByError;
@@ -180,8 +180,10 @@ where
     /// Puts a body into its lane, or aside.
     fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
         placed_at(&(self.t, point))?;
-        let fits = self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point));
-        let alone = if fits { None } else { Some(self.stepped(handle, (self.t, point))?) };
+        let steps = self.steps(number);
+        let fits =
+            self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point, steps));
+        let alone = if fits { None } else { Some(self.stepped(handle, (self.t, point), steps)?) };
         self.goes(number, alone);
         Ok(())
     }
@@ -196,9 +198,25 @@ where
         }
     }
 
-    /// A body by itself.
-    fn stepped(&self, handle: H, start: (f64, PointOf<N, H>)) -> Result<Stepped<'a, N, H>, Reason> {
-        Stepped::begin(Moving { handle: Stepping(handle), begin: self.begin }, self.plan.clone(), start)
+    /// A body by itself, after so many steps.
+    fn stepped(
+        &self,
+        handle: H,
+        start: (f64, PointOf<N, H>),
+        steps: u64,
+    ) -> Result<Stepped<'a, N, H>, Reason> {
+        let moving = Moving { handle: Stepping(handle), begin: self.begin };
+        let mut body = Stepped::begin(moving, self.plan.clone(), start)?;
+        body.has_cost(Statistics { steps, ..Statistics::default() });
+        Ok(body)
+    }
+
+    /// Steps that a body has taken, in lanes and by itself.
+    fn steps(&self, number: usize) -> u64 {
+        match self.alone.get(number) {
+            Some(Some(alone)) => alone.body.statistics().steps,
+            _ => self.eight(number).map_or(0, |(eight, lane)| eight.steps(lane)),
+        }
     }
 
     /// Where a body is in lanes, or would be.
@@ -274,7 +292,8 @@ where
         put.and_then(|point| self.put(number, model, point)).map_err(|reason| self.stopped_by(reason))
     }
 
-    /// Largest number of steps to one time; a million if not set.
+    /// Largest number of steps to one time; a million if not set. Equal steps are counted before they are taken: where there would
+    /// be more, no body moves. Of steps by their error each body takes as many as it may.
     pub fn set_max_steps(&mut self, max_steps: u64) {
         self.plan.max_steps = max_steps;
         self.alone.iter_mut().flatten().for_each(|alone| alone.body.limit(max_steps));
@@ -341,11 +360,12 @@ where
     /// Lets a body go on by itself from where it left its lane.
     fn leave(&mut self, number: usize, left: Left<H, PointOf<N, H>>) -> Result<(), Stop> {
         let (t, reason) = (left.from.0, Reason::StepLimit { limit: self.plan.max_steps });
-        let body = self.stepped(left.handle, left.from);
-        self.goes(number, Some(body.map_err(|reason| Stop { reason, t, steps: 0 })?));
-        let (t_end, limit) = (self.t, self.plan.max_steps);
+        let steps = left.steps;
+        let body = self.stepped(left.handle, left.from, steps);
+        self.goes(number, Some(body.map_err(|reason| Stop { reason, t, steps })?));
+        let t_end = self.t;
         match self.alone.get_mut(number) {
-            Some(Some(alone)) if left.is_limited => alone.stop = Some(Stop { reason, t, steps: limit }),
+            Some(Some(alone)) if left.is_limited => alone.stop = Some(Stop { reason, t, steps }),
             Some(Some(alone)) => alone.move_to(t_end),
             _ => {}
         }

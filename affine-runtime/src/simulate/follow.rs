@@ -71,7 +71,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let begin = self.trajectory.end;
         self.trajectory.dense.iter_mut().for_each(|dense| dense.begin(begin));
         let Computation { asked, tolerance, .. } = self.trajectory.computation;
-        let mut guard = Guard::begin(model, motion, (since, &start), (asked, tolerance))?;
+        let mut guard = Guard::begin(model, motion, (since, &start), self.t_end, (asked, tolerance))?;
         let is_watched = self.progress.is_some() || self.is_watched();
         let equal = asked.step().is_some();
         let sampling = Sampling { parts: if equal { 1 } else { WITHIN_A_STEP }, by_ends: !equal, rate: 0.0 };

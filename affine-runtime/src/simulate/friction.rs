@@ -1,13 +1,26 @@
 //! How fast friction takes velocities away.
 
 use super::layout::{Layout, has_work};
+use super::mechanics::Mechanics;
+use super::method::Method;
+use crate::error::Reason;
 use crate::model::{Model, Quantity};
+use crate::state::Phase;
 
 /// [`Method::Automatic`](super::Method::Automatic) takes the Radau method where velocities die out so many times, by powers of e, from the start to the
 /// end: steps of order 8 are at most 6.4 of these times long, and on problems of viscous bodies 250 of them take as many
 /// operations as the few implicit steps that do not see the friction. Friction that grows on the way is looked at again after 512
 /// explicit steps, 1024 and so on, for what is left of the run.
 pub(super) const STIFF_FRICTION: f64 = 1600.0;
+
+/// How often velocities may die out, by powers of e, within a step by splitting of an order above 2. Such an order flows some of its
+/// pieces backward in time, as all do (Q. Sheng, IMA J. Numer. Anal. 9 (1989) 199-212; M. Suzuki, J. Math. Phys. 32 (1991) 400-407;
+/// D. Goldman, T. Kaper, SIAM J. Numer. Anal. 33 (1996) 349-367): there friction gives back what it has taken, by a factor that grows
+/// exponentially. Up to here they err less than order 2, which goes forward alone, and from some 12 on, of order 8 from 8, more
+/// (`cargo test --test friction orders`).
+const WITHIN_A_STEP: f64 = 10.0;
+/// The same of order 8, which goes back further.
+const WITHIN_A_STEP_OF_8: f64 = 6.0;
 
 /// Components of all momenta of a body: `n^2 + n`.
 const MOMENTA: usize = 12;
@@ -128,6 +141,26 @@ fn is_momentum(quantity: Quantity) -> bool {
 /// pass over that.
 pub(super) fn is_stiff(rate: f64, time: f64) -> bool {
     rate * time > STIFF_FRICTION
+}
+
+/// Refuses friction at a point that takes velocities away faster than a method follows on its way forward in time.
+///
+/// # Errors
+/// [`Reason::Friction`].
+pub(super) fn is_followed<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    method: Method,
+    (t, point): (f64, &P),
+) -> Result<(), Reason> {
+    let (order, step, most) = match method {
+        Method::Splitting { order: order @ (4 | 6), step } => (order, step, WITHIN_A_STEP),
+        Method::Splitting { order: order @ 8, step } => (order, step, WITHIN_A_STEP_OF_8),
+        _ => return Ok(()),
+    };
+    match model.rate_of_friction(t, point) {
+        Some(rate) if rate * step > most => Err(Reason::Friction { order, rate, longest: most / rate, t }),
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

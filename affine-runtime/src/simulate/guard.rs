@@ -5,6 +5,7 @@ use super::collapse::{failing, first_failure, rate_of_determinant};
 use super::distortion::{products, told};
 use super::domain::{Domain, has_value};
 use super::failed::failed;
+use super::friction::is_followed;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::motion::Motion;
@@ -28,16 +29,20 @@ pub(super) struct Guard<const N: usize> {
 }
 
 impl<const N: usize> Guard<N> {
-    /// At the beginning of a motion from the placement of a point.
+    /// At the beginning of a motion from the placement of a point to an end.
     ///
     /// # Errors
-    /// [`Reason::Domain`] or [`Reason::Energy`] where the potential has no value.
+    /// [`Reason::Domain`] or [`Reason::Energy`] where the potential has no value; [`Reason::Friction`].
     pub(super) fn begin<P: Phase<N>>(
         model: &dyn Mechanics<N, P>,
         motion: &dyn Motion<P>,
         (since, start): (f64, &P),
+        t_end: f64,
         asked: (Method, f64),
     ) -> Result<Self, Reason> {
+        if t_end > since {
+            is_followed(model, asked.0, (since, start))?;
+        }
         let signature = Signature::of(model.regularity(start.phi()));
         let (passes, description) = (passes_through_zero(model.description()), model.description());
         has_value(model, (since, start))?;
@@ -77,7 +82,7 @@ impl<const N: usize> Guard<N> {
     ///
     /// # Errors
     /// [`Reason::Placement`] where the orientation is lost within it, found again or not; [`Reason::Domain`] or
-    /// [`Reason::Energy`] where the potential has no value.
+    /// [`Reason::Energy`] where the potential has no value; [`Reason::Friction`] where that has grown.
     pub(super) fn stands<P: Phase<N>>(
         &mut self,
         model: &dyn Mechanics<N, P>,
@@ -101,6 +106,11 @@ impl<const N: usize> Guard<N> {
         }
         if model.description().custom_potential {
             has_value(model, (motion.t(), &motion.reached().0))?;
+        }
+        let (t, steps) = (motion.t(), motion.statistics().steps);
+        // Each look costs the evaluations of some steps.
+        if t > self.since && steps.is_power_of_two() {
+            is_followed(model, asked.0, (t, &motion.reached().0))?;
         }
         Ok(self.moment.is_some())
     }

@@ -85,6 +85,11 @@ pub enum Method {
     /// one piece with the Casimirs, by elliptic functions: steps need not resolve it, as those of every other method do.
     /// (Forces `dW/dq` that change with it can move it by `t dW/dq/(m w)` where steps take whole swings of its frequency
     /// `w`.)
+    ///
+    /// Under strong friction order 2 is the one: higher orders go back in time on their way, and amplify what friction has taken. A
+    /// motion by them ends where velocities die out more than 10 times, by order 8 more than 6 times, within a step,
+    /// [`Reason::Friction`](super::Reason::Friction). That is looked at where it begins and after 1, 2, 4, 8 steps and so on; in
+    /// [`Flows`](super::Flows) where a body begins.
     Splitting {
         /// The order, 2, 4, 6 or 8.
         order: usize,

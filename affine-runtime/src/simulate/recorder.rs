@@ -15,7 +15,6 @@ use super::standing::Side;
 use super::trajectory::Trajectory;
 use super::watcher::{At, Met, Sampling, Step, Watcher};
 use super::witness::Witness;
-use crate::error::Error;
 use crate::error::{Callback, Reason};
 use crate::inner::{larger, norm};
 use crate::state::Phase;
@@ -260,18 +259,16 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
                 }
             }
             Action::Change(change) => {
-                let changed = change(t, &point).map_err(|error| match error {
-                    Error::Placement { determinant } => Reason::Placement { determinant, rate: None, t },
-                    Error::NotFinite { .. } => Reason::NotFinite,
-                    _ => Reason::Change { event: name },
-                })?;
+                let changed = change(t, &point).ok().filter(|changed| check(t, changed).is_ok());
                 if self.schedule == Schedule::Steps {
                     self.record_step(t, (point, work))?;
                 }
                 self.trajectory.events.push(occurrence);
-                // A point that is none ends the run before its next step.
-                let is_point = check(t, &changed).is_ok();
-                let accumulation = if is_point { self.watcher.change(met, &changed) } else { None };
+                let Some(changed) = changed else {
+                    // Nothing is to be made of a body that has collapsed itself.
+                    return check(t, &point).and(Err(Reason::Change { event: name }));
+                };
+                let accumulation = self.watcher.change(met, &changed);
                 // Behind the end of the run there is none to tell of.
                 let (end, backward) = (self.t_end, self.backward);
                 let accumulation = accumulation

@@ -184,7 +184,6 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 Some(Turn::Stopped) => return Ok(()),
                 None => return recorder.arrive(),
             };
-            check(t, &point)?;
             *from = (t, point);
             recorder.trajectory.end = *from;
             recorder.trajectory.energies.work_at_end = work;

@@ -83,11 +83,7 @@ impl<const N: usize, P> Settings<'_, N, P> {
 
     /// The end and the outputs, of settings that make sense for a model.
     pub(super) fn checked(&self, model: &Description) -> Result<(f64, Schedule), Setting> {
-        for event in &self.events {
-            if let Some(index) = event.out_of_range {
-                return Err(Setting::EventIndex { event: event.name, index });
-            }
-        }
+        self.events.iter().try_for_each(Event::checked)?;
         self.plan.checked(model)
     }
 }

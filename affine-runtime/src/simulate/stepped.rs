@@ -125,7 +125,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
                 engine.restart(&moving.handle, &course)?;
                 self.cost = cost;
                 engine.keep();
-                let guard = Guard::begin(moving, &**engine, (t, point), (course.method, course.tolerance));
+                let asked = (course.method, course.tolerance);
+                let guard = Guard::begin(moving, &**engine, (t, point), t_end, asked);
                 self.guard = Some(guard?);
             }
         }
@@ -156,7 +157,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
             }
             (Way::ClosedForm(motion, t), _) => {
                 motion.resolved(t_end)?;
-                motion.reached(model, t_end)?;
+                motion.reached(model, *t, t_end)?;
                 (self.begin, *t) = (*t, t_end);
                 Ok(())
             }

@@ -1,10 +1,11 @@
 //! Measured orders on a driven, nonlinear body, against the same motion by steps of order 8 on SL(n) with the multiplier
 //! eliminated: another method and another form of the equations.
 
-use affine_integrators::RungeKutta8;
 use affine_integrators::lie::Chart;
+use affine_integrators::rattle::Composition;
+use affine_integrators::{Rattle, RungeKutta8};
 use affine_runtime::frames::Matrix;
-use affine_runtime::model::Constraint;
+use affine_runtime::model::{Constraint, Group, Quantity};
 
 use crate::body::{DISC, DRIVEN, Elastic, distance, groups, part, run, start, state};
 
@@ -62,10 +63,54 @@ fn orders_are_2_4_6_and_8() {
     }
 }
 
+/// The energy that the drive gives is the work, to the order of the steps: the energies are those of the reference.
+#[test]
+fn works_are_of_the_order_of_the_steps() {
+    const GROUPS: &[Group] = &[
+        Group::new(Quantity::Placement, 9),
+        Group::new(Quantity::CanonicalMomentum, 9),
+        Group::new(Quantity::Work, 1),
+    ];
+    let free = DRIVEN.equations::<18>();
+    let drive = |t: f64, y: &[f64; 18]| {
+        let gram = part::<3>(y, 0).transpose() * part::<3>(y, 0);
+        [DRIVEN.e * (DRIVEN.w * t).sin(), DRIVEN.e * DRIVEN.w * (DRIVEN.w * t).cos()]
+            .map(|f| f * gram[(0, 0)])
+    };
+    let with_work = |y: &[f64; 18], work: f64| {
+        let mut state = [work; 19];
+        state[..18].copy_from_slice(y);
+        state
+    };
+    let alone = |y: &[f64; 19]| {
+        let mut state = [0.0; 18];
+        state.copy_from_slice(&y[..18]);
+        state
+    };
+    let equations = |t: f64, y: &[f64; 19]| with_work(&free(t, &alone(y)), drive(t, &alone(y))[1]);
+    let begin = start::<3, 18>(&DRIVEN);
+    let energy = |t: f64, y: &[f64; 18]| DRIVEN.energy(y) + drive(t, y)[0];
+    let expected = energy(T_END, &reference(DRIVEN)) - energy(0.0, &begin);
+    for (order, n) in [(2, 100.0), (4, 20.0), (6, 10.0), (8, 6.0)] {
+        let error = |n: f64| {
+            let composition = Composition::of_order(order).unwrap();
+            let begin = (0.0, with_work(&begin, 0.0));
+            let mut run =
+                Rattle::<3, _, _>::new(equations, GROUPS, composition, begin, T_END, T_END / n).unwrap();
+            while !run.is_finished() {
+                run.advance().unwrap();
+            }
+            (run.y()[18] - expected).abs()
+        };
+        let (first, last) = (error(n), error(2.0 * n));
+        let found = (first / last).log2();
+        println!("work by RATTLE {order}: {found:.3}, {last:e}");
+        assert!(last > 1e-14 && (found - order as f64).abs() < 0.3, "{order}: {found} {last:e}");
+    }
+}
+
 #[test]
 fn output_between_steps_is_of_the_order_of_the_steps_and_leaves_them_alone() {
-    use affine_integrators::Rattle;
-    use affine_integrators::rattle::Composition;
     let composition = Composition::of_order(6).unwrap();
     let new = || {
         let begin = (0.0, start::<3, 18>(&DRIVEN));

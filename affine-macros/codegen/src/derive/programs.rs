@@ -21,20 +21,21 @@ use super::splitting::{PrincipalProgram, Programs};
 use super::ways::Run;
 
 impl Body<'_> {
-    /// Hamilton's equations of a chart under a potential in place of its own, in the shortest of several ways.
+    /// Hamilton's equations of a chart under a potential in place of its own, in the shortest of several ways; with the work of
+    /// the forces where the array has a place for it.
     pub(super) fn full_equations(
         &self,
         arena: &mut Arena,
         chart: &Chart,
-        potential: Option<&Potential>,
+        (potential, has_work): (Option<&Potential>, bool),
         coefficients: &mut Constants,
     ) -> Option<Equations> {
         // Symmetric and skew parts are entries already where a constraint leaves only one of them.
         let parts = chart.confined.is_none_or(|group| group == Constraint::Isochoric);
-        let mut ways: Vec<Batch> = Vec::new();
+        let (mut ways, mut work): (Vec<Batch>, Vec<Expr>) = (Vec::new(), Vec::new());
         for (system, form) in self.systems(arena, chart, potential)? {
-            // The plain array has no place for the work.
-            let system = System { work: None, ..system };
+            let system = System { work: system.work.filter(|_| has_work), ..system };
+            work = system.work.iter().map(|(symbol, _)| *symbol).collect();
             let system = if self.motion.hamiltonian().is_some() { system } else { system.tidied(arena) };
             ways.push(batch(arena, &system));
             if form == Form::Expanded && parts {
@@ -42,7 +43,7 @@ impl Body<'_> {
             }
         }
         let inputs = self.inputs(arena, chart);
-        Some(shortest(arena, chart, &ways, &inputs, coefficients))
+        Some(shortest(arena, (chart, &work), &ways, &inputs, coefficients))
     }
 
     /// The reduction with the shortest equations, its programs, and those of what is asked for beside them.
@@ -68,10 +69,10 @@ impl Body<'_> {
     }
 }
 
-/// Equations over the coordinates of a chart, in the shortest of several ways.
+/// Equations over the coordinates of a chart and the work, in the shortest of several ways.
 fn shortest(
     arena: &mut Arena,
-    chart: &Chart,
+    (chart, work): (&Chart, &[Expr]),
     ways: &[Batch],
     inputs: &[Expr],
     coefficients: &mut Constants,
@@ -84,6 +85,7 @@ fn shortest(
         (Quantity::Placement, arena.symbols_of(&chart.phi.0.concat())),
         (linear, arena.symbols_of(&chart.p)),
         (chart.momentum.quantity(), arena.symbols_of(&momenta)),
+        (Quantity::Work, arena.symbols_of(work)),
     ];
     Equations {
         groups: groups.into_iter().filter(|(_, symbols)| !symbols.is_empty()).collect(),

@@ -34,7 +34,7 @@ pub(super) fn motion(arena: &mut Arena, confined: &Motion, forces: &Forces) -> O
     Motion::new(arena, vec![kinetic], mass, None)
 }
 
-/// Its equations over `phi` and `Pi`.
+/// Its equations over `phi` and `Pi`, with the work of its forces.
 pub(super) fn equations(
     arena: &mut Arena,
     motion: &Motion,
@@ -42,5 +42,5 @@ pub(super) fn equations(
     coefficients: &mut Constants,
 ) -> Option<Equations> {
     let chart = motion.full_chart(arena);
-    Body { motion, potential, forces }.full_equations(arena, &chart, potential, coefficients)
+    Body { motion, potential, forces }.full_equations(arena, &chart, (potential, true), coefficients)
 }

@@ -89,6 +89,15 @@ pub enum Setting {
         /// The index.
         index: usize,
     },
+    /// An event waits for a level that nothing has: no finite number, or a stretch that is not positive.
+    EventLevel {
+        /// Name of the event.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
+        event: Word,
+        /// The level.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        given: f64,
+    },
     /// The checkpoint is of a run with another model, other parameters, start, method, tolerance, interval, outputs or
     /// events, or is not as it was written.
     Checkpoint {
@@ -251,6 +260,11 @@ impl fmt::Display for Setting {
                     "the event `{event}` asks for component {index}: components are counted from 1 to n"
                 )
             }
+            Setting::EventLevel { event, given } => write!(
+                f,
+                "the event `{event}` waits for the value {given:e}, which nothing has: levels are finite numbers, and stretches \
+                 are positive"
+            ),
             Setting::Checkpoint { model } => write!(
                 f,
                 "the checkpoint is not of this run of {model}, or not as it was written: resume with the model, its \

@@ -29,7 +29,8 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it.
+        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it; 0 where a closed form
+        /// turns inside out and back on the way to the time asked for.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
@@ -70,7 +71,9 @@ pub enum Reason {
         t: f64,
     },
     /// The energy, less the work of the forces that no potential has, is no longer what it was at the start: the steps have
-    /// lost the motion, as they do where they pass over a singularity.
+    /// lost the motion, as they do where they pass over a singularity. Explicit steps that are too long for a stiff vibration damp
+    /// it, and its energy is lost with it: at a looser tolerance that is within what is allowed, and at a tighter one steps follow
+    /// the vibration; in between the run ends here.
     EnergyLost {
         /// `|H(t) - H(t0) - W(t)|`.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
@@ -90,6 +93,21 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         weakest: f64,
         /// The time of that placement.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        t: f64,
+    },
+    /// Friction takes velocities away so fast that steps by splitting of an order above 2, some of whose pieces go back in time,
+    /// amplify what it has taken.
+    Friction {
+        /// The order.
+        order: usize,
+        /// The rate at which velocities are taken away.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        rate: f64,
+        /// The longest step of this order under such friction.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        longest: f64,
+        /// The time.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
@@ -156,7 +174,8 @@ pub enum Reason {
         /// How often the event has changed the point.
         count: u64,
     },
-    /// The point that an event should have been changed to is none.
+    /// The phase point to which an event should have changed the body is none: the function gave an error, numbers that are not
+    /// finite, or a placement that does not keep orientation.
     Change {
         /// Name of the event.
         #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
@@ -228,6 +247,12 @@ impl fmt::Display for Reason {
                  the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
                  coefficients whose sum is definite at every placement"
             ),
+            Reason::Friction { order, rate, longest, t } => write!(
+                f,
+                "friction takes velocities away at a rate of {rate:.2e} at t = {t}: splitting of order {order}, like all above 2, goes \
+                 back in time on its way, where friction gives back what it has taken, and more the longer the step; take order \
+                 2, steps of at most {longest:.1e}, or Method::Radau {{ stages: None }}"
+            ),
             Reason::Range { q, t } => write!(
                 f,
                 "q = {q} at t = {t}: Runge-Kutta-Nystrom steps and splitting compute det phi, which with its inverse is in \
@@ -268,9 +293,11 @@ impl fmt::Display for Reason {
                  faster, or the last one left the motion at rest where the event happens; let the event stop the run, or \
                  go on from its end with a model of the motion in contact"
             ),
-            Reason::Change { event } => {
-                write!(f, "the event `{event}` should change the phase point, and its function gave an error")
-            }
+            Reason::Change { event } => write!(
+                f,
+                "the event `{event}` should change the phase point, and what its function gave is none: an error, numbers that \
+                 are not finite, or det phi <= 0; give a phase point of the model, or let the event stop the run"
+            ),
             Reason::Interrupted(Callback::Progress) => f.write_str("the progress callback ended the run"),
             Reason::Interrupted(Callback::Observer) => f.write_str("the observer ended the run"),
         }

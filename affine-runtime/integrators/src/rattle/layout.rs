@@ -23,6 +23,8 @@ pub(super) struct Layout<const N: usize> {
     /// Components that are positions.
     positions: [usize; MOST],
     count: usize,
+    /// The component that is the work.
+    work: Option<usize>,
     /// `dT'_i/dPi_k`, positions by momenta.
     inverse_mass: [[f64; MOST]; MOST],
 }
@@ -65,6 +67,7 @@ impl<const N: usize> Layout<N> {
             momenta: [0; MOST],
             positions: [0; MOST],
             count: 0,
+            work: None,
             inverse_mass: [[0.0; MOST]; MOST],
         };
         let (mut start, mut momenta, mut positions) = (0, 0, 0);
@@ -72,6 +75,10 @@ impl<const N: usize> Layout<N> {
             let range = start..start + group.len;
             start = range.end;
             let (list, count) = match group.quantity {
+                Quantity::Work => {
+                    layout.work = Some(range.start);
+                    continue;
+                }
                 Quantity::Position | Quantity::Placement => (&mut layout.positions, &mut positions),
                 Quantity::LinearMomentum | Quantity::CanonicalMomentum => (&mut layout.momenta, &mut momenta),
                 _ => return None,
@@ -138,6 +145,20 @@ impl<const N: usize> Layout<N> {
         let mut rise = S::zeros();
         for k in &self.momenta[..self.count] {
             rise.as_mut()[*k] = h * rates.as_ref()[*k];
+        }
+        rise
+    }
+
+    /// The state holds the work.
+    pub(super) fn has_work(&self) -> bool {
+        self.work.is_some()
+    }
+
+    /// The work of a step `h`, by the powers at its ends.
+    pub(super) fn work<S: StateVector<f64>>(&self, ends: [&S; 2], h: f64) -> S {
+        let mut rise = S::zeros();
+        if let Some(k) = self.work {
+            rise.as_mut()[k] = 0.5 * h * ends.iter().map(|rates| rates.as_ref()[k]).sum::<f64>();
         }
         rise
     }

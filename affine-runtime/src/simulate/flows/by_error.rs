@@ -22,6 +22,8 @@ where
     bodies: Bodies<N, T, H>,
     t: f64,
     has_body: [bool; EIGHT],
+    /// Steps that the bodies have taken.
+    steps: [u64; EIGHT],
     /// Points from which no step has been taken.
     anew: [Option<PointOf<N, H>>; EIGHT],
 }
@@ -33,7 +35,7 @@ where
     /// Lanes with models at a time, in which there are no bodies yet.
     pub(super) fn new(plan: &Plan, t0: f64, together: Together<N, T, H>) -> Self {
         let bodies = Bodies::new(together, (plan, t0), true);
-        Self { bodies, t: t0, has_body: [false; EIGHT], anew: [None; EIGHT] }
+        Self { bodies, t: t0, has_body: [false; EIGHT], steps: [0; EIGHT], anew: [None; EIGHT] }
     }
 
     /// Lets those begin that were put here since the last step; whether there is a motion from where they are.
@@ -72,7 +74,7 @@ where
         let point = self.anew[lane].filter(|_| t == self.t).unwrap_or(point);
         let handle = self.handle(lane).clone();
         self.rest(lane);
-        Left { lane, handle, from: (t, point), is_limited }
+        Left { lane, handle, from: (t, point), steps: self.steps[lane], is_limited }
     }
 }
 
@@ -80,7 +82,7 @@ impl<const N: usize, T: Lanes, H: Handle<N>> Eight<N, H> for ByError<N, T, H>
 where
     H::Model: InLanes<N>,
 {
-    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool {
+    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>, steps: u64) -> bool {
         let model = handle.model();
         let (state, constants) = model.reduce(self.t, point);
         let rates = model.reduced_equations(self.t, &constants, &state);
@@ -90,8 +92,13 @@ where
         if fits {
             self.bodies.set_model(lane, handle.clone(), constants);
             (self.has_body[lane], self.anew[lane]) = (true, Some(*point));
+            self.steps[lane] = steps;
         }
         fits
+    }
+
+    fn steps(&self, lane: usize) -> u64 {
+        self.steps[lane]
     }
 
     fn rest(&mut self, lane: usize) {
@@ -130,6 +137,7 @@ where
                     true => Some(Fate::Stuck),
                     false => fates[lane],
                 };
+                self.steps[lane] += u64::from(has_stepped && fate != Some(Fate::Stuck));
                 let from = match fate {
                     None | Some(Fate::Arrived) => None,
                     Some(Fate::Limited) => Some((self.bodies.t(lane), self.bodies.reached(lane).0)),

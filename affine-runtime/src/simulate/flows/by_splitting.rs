@@ -8,9 +8,11 @@ use crate::inner::{SplittingInLanes, Sum, of_lane};
 use crate::integrate::Failure;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
+use crate::simulate::friction::is_followed;
 use crate::simulate::in_lanes::{EIGHT, Reduced, Together};
 use crate::simulate::layout::is_looked_after;
 use crate::simulate::mechanics::Moving;
+use crate::simulate::method::Method;
 use crate::simulate::methods::by_splitting;
 use crate::simulate::motion::{Followed, PointOf};
 use crate::simulate::orientation::{Moment, keeps_orientation, passes_through_zero};
@@ -21,7 +23,10 @@ where
     H::Model: InLanes<N> + Splitting<N>,
 {
     integration: SplittingInLanes<F64x8, Reduced<N, H, F64x8>, Moved<N, H>>,
+    method: Method,
     has_body: [bool; EIGHT],
+    /// Steps that the bodies have taken.
+    steps: [u64; EIGHT],
     /// Points from which no step has been taken.
     anew: [Option<PointOf<N, H>>; EIGHT],
 }
@@ -42,7 +47,9 @@ where
         let integration = SplittingInLanes::new(Moved(together), order, t0, step)?;
         Some(integration.map(|integration| Self {
             integration,
+            method: Method::Splitting { order, step },
             has_body: [false; EIGHT],
+            steps: [0; EIGHT],
             anew: [None; EIGHT],
         }))
     }
@@ -97,18 +104,25 @@ impl<const N: usize, H: Handle<N>> Eight<N, H> for BySplitting<N, H>
 where
     H::Model: InLanes<N> + Splitting<N>,
 {
-    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool {
+    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>, steps: u64) -> bool {
         let (model, (t, _)) = (handle.model(), self.integration.end());
         let (state, constants) = model.reduce(t, point);
         let has_value = !H::Model::DESCRIPTION.custom_potential || model.hamiltonian(t, point).is_finite();
-        let fits = has_value && !is_looked_after(model, point) && stands::<N, H>(&state);
+        let moving = Moving { handle: Followed(model), begin: by_splitting };
+        let is_followed = || is_followed(&moving, self.method, (t, point)).is_ok();
+        let fits = has_value && is_followed() && !is_looked_after(model, point) && stands::<N, H>(&state);
         if fits {
             self.integration.put(lane, &state);
             self.integration.pieces_mut().0.put(lane, handle.clone(), constants);
             (self.has_body[lane], self.anew[lane]) = (true, Some(*point));
+            self.steps[lane] = steps;
             self.double(lane);
         }
         fits
+    }
+
+    fn steps(&self, lane: usize) -> u64 {
+        self.steps[lane]
     }
 
     fn rest(&mut self, lane: usize) {
@@ -146,11 +160,12 @@ where
                 if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
                     let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
                     let (handle, from) = (self.handle(lane).clone(), (begin.0, point));
-                    left(Left { lane, handle, from, is_limited: false });
+                    left(Left { lane, handle, from, steps: self.steps[lane], is_limited: false });
                     self.rest(lane);
                 }
             }
             self.anew = [None; EIGHT];
+            self.steps.iter_mut().for_each(|steps| *steps += 1);
         }
         Ok(())
     }

@@ -9,8 +9,11 @@ use crate::simulate::motion::PointOf;
 
 /// Eight bodies, or fewer, in lanes.
 pub(super) trait Eight<const N: usize, H: Handle<N>> {
-    /// Puts a body into a lane at the time reached; `false` where it is to move by itself, and the lane stays as it is.
-    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>) -> bool;
+    /// Puts a body that has taken so many steps into a lane at the time reached; `false` where it is to move by itself, and the lane stays as it is.
+    fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>, steps: u64) -> bool;
+
+    /// Steps that the body in a lane has taken.
+    fn steps(&self, lane: usize) -> u64;
 
     /// Leaves a lane without a body.
     fn rest(&mut self, lane: usize);
@@ -39,6 +42,8 @@ pub(super) struct Left<H, P> {
     pub(super) handle: H,
     /// Time and phase point, the last good ones.
     pub(super) from: (f64, P),
+    /// Steps up to there.
+    pub(super) steps: u64,
     /// It has taken as many steps as it may.
     pub(super) is_limited: bool,
 }
