@@ -170,7 +170,8 @@ fn unit<const N: usize>(i: usize, j: usize) -> Matrix<N> {
 /// What turns and moves space, the body and its centre.
 pub(super) fn isometries<const N: usize, M: Model<N>>() -> Vec<Generator<N>> {
     use Conserved::{LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity};
-    let all = [LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity].into_iter().flat_map(generators::<N>);
+    let whole = [LinearMomentum, OrbitalAngularMomentum, Spin, Vorticity];
+    let all = whole.into_iter().flat_map(|quantity| generators(quantity, None));
     all.map(|generator| confined::<N, M>(&generator)).collect()
 }
 
