@@ -172,7 +172,7 @@ fn failures_say_what_is_wrong() {
     let branch = Continuation::new(&[], (0.0, 1.0), 0.1, family).run(&guess, 0.0).unwrap();
     assert_eq!((branch.points.len(), branch.ended), (1, Some(AnalysisError::DependsOnTime)));
     // A length has no derivative where it vanishes, which is no matter of time.
-    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = norm(x)^3 + tr(G)/2 - ln(det))]
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = cosh(norm(x)) + tr(G)/2 - ln(det))]
     struct Cusped;
     let none = Vector::<2>::zeros();
     let guess = Cusped.at_velocity(none, Matrix::<2>::identity(), none, Matrix::<2>::zeros()).unwrap();

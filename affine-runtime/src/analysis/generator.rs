@@ -236,14 +236,9 @@ fn generators<const N: usize>(quantity: Conserved, bases: Option<&Bases<N>>) -> 
 /// The generator in orthonormal bases of an entry that a momentum has in others: `tr(m' X')` is `tr(m X)` with `m = A^-1 m' A`,
 /// `m = A^T m' A` where both indices are lowered, `m = B^-1 m' B` and `m = B^-1 m' B^-T` where both are raised.
 fn in_orthonormal<const N: usize>(of: Conserved, one: &Generator<N>, bases: &Bases<N>) -> Generator<N> {
+    use Conserved::{OrbitalAngularMomentum, Spin, TotalAngularMomentum, Vorticity};
     let (a, b) = (&bases.space, &bases.body);
-    let is_turn = matches!(
-        of,
-        Conserved::OrbitalAngularMomentum
-            | Conserved::TotalAngularMomentum
-            | Conserved::Spin
-            | Conserved::Vorticity
-    );
+    let is_turn = matches!(of, OrbitalAngularMomentum | TotalAngularMomentum | Spin | Vorticity);
     let (right, left) = match is_turn {
         true => (a.transpose(), bases.body_inverse.transpose()),
         false => (bases.space_inverse, *b),
