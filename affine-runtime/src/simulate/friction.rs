@@ -1,11 +1,9 @@
 //! How fast friction takes velocities away.
 
 use super::layout::{Layout, has_work};
-use super::mechanics::Mechanics;
 use super::method::Method;
 use crate::error::Reason;
 use crate::model::{Model, Quantity};
-use crate::state::Phase;
 
 /// [`Method::Automatic`](super::Method::Automatic) takes the Radau method where velocities die out so many times, by powers of e, from the start to the
 /// end: steps of order 8 are at most 6.4 of these times long, and on problems of viscous bodies 250 of them take as many
@@ -143,21 +141,18 @@ pub(super) fn is_stiff(rate: f64, time: f64) -> bool {
     rate * time > STIFF_FRICTION
 }
 
-/// Refuses friction at a point that takes velocities away faster than a method follows on its way forward in time.
+/// Refuses friction that takes velocities away at a rate that a method does not follow on its way forward in time; the rate is
+/// asked for where it matters.
 ///
 /// # Errors
 /// [`Reason::Friction`].
-pub(super) fn is_followed<const N: usize, P: Phase<N>>(
-    model: &dyn Mechanics<N, P>,
-    method: Method,
-    (t, point): (f64, &P),
-) -> Result<(), Reason> {
+pub(super) fn is_followed(method: Method, t: f64, rate: impl FnOnce() -> Option<f64>) -> Result<(), Reason> {
     let (order, step, most) = match method {
         Method::Splitting { order: order @ (4 | 6), step } => (order, step, WITHIN_A_STEP),
         Method::Splitting { order: order @ 8, step } => (order, step, WITHIN_A_STEP_OF_8),
         _ => return Ok(()),
     };
-    match model.rate_of_friction(t, point) {
+    match rate() {
         Some(rate) if rate * step > most => Err(Reason::Friction { order, rate, longest: most / rate, t }),
         _ => Ok(()),
     }

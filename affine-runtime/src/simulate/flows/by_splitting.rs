@@ -8,7 +8,7 @@ use crate::inner::{SplittingInLanes, Sum, of_lane};
 use crate::integrate::Failure;
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
-use crate::simulate::friction::is_followed;
+use crate::simulate::friction::{is_followed, rate_of_friction};
 use crate::simulate::in_lanes::{EIGHT, Reduced, Together};
 use crate::simulate::layout::is_looked_after;
 use crate::simulate::mechanics::Moving;
@@ -108,8 +108,8 @@ where
         let (model, (t, _)) = (handle.model(), self.integration.end());
         let (state, constants) = model.reduce(t, point);
         let has_value = !H::Model::DESCRIPTION.custom_potential || model.hamiltonian(t, point).is_finite();
-        let moving = Moving { handle: Followed(model), begin: by_splitting };
-        let is_followed = || is_followed(&moving, self.method, (t, point)).is_ok();
+        let rate = || rate_of_friction::<N, H::Model>(model, (t, point)).rate;
+        let is_followed = || is_followed(self.method, t, rate).is_ok();
         let fits = has_value && is_followed() && !is_looked_after(model, point) && stands::<N, H>(&state);
         if fits {
             self.integration.put(lane, &state);
