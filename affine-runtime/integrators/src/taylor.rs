@@ -1,5 +1,6 @@
 //! Taylor series method with choice of order and step.
 
+mod gaps;
 pub(crate) mod lanes;
 
 pub use affine_core::system::Series;
@@ -28,13 +29,17 @@ use affine_core::model::{Group, StateVector};
 /// tolerance` in the [`ErrorNorm`] for `j = p - 1` and `p`, times `exp(-0.7/(p - 1))`: it follows from the coefficients
 /// alone, and no step is rejected. Two terms, since every other one vanishes for an even or odd solution.
 ///
+/// Series may have longer gaps, `x'' = -x^(k - 1)` from `x = 0` has one of `k` orders: where the last two terms are less than those
+/// before let expect, where they vanish, and below order 8, the step is proved before it is taken, by the defect `P' - f(P)` of
+/// the polynomial at its end, and shortened to what that allows.
+///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
 ///
 /// The polynomial is the dense output. Steps are summed with compensation.
 ///
 /// Cost: one set of coefficients per step, which [`Statistics`](crate::Statistics) count as a series; at the start one evaluation for each
-/// component of a momentum and one more.
+/// component of a momentum and one more; one for each time that a step is proved.
 pub type Taylor<S, C, R> = Adaptive<TaylorSteps<S, C, R>>;
 
 /// Steps by Taylor polynomials.
@@ -44,6 +49,8 @@ pub struct TaylorSteps<S, C, R: Series<S, C>> {
     constants: C,
     error_norm: ErrorNorm,
     order: usize,
+    /// That of [`gaps::quotient`].
+    quotient: f64,
     begin: f64,
     t: f64,
     y: S,
@@ -121,6 +128,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
             method: TaylorSteps {
                 error_norm,
                 order,
+                quotient: gaps::quotient(control.tolerance, order),
                 begin: t0,
                 t: t0,
                 y: y0,
@@ -196,7 +204,11 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         }
         let rest = control.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
-        let end = if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
+        let mut end =
+            if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
+        if length == f64::INFINITY || self.hides_terms(end - self.t) {
+            end = self.proved(end, control);
+        }
         if (end - self.t).abs() <= shortest(self.t, control.t_end) && end != control.t_end {
             return Err(Failure::StepUnderflow);
         }
