@@ -5,6 +5,8 @@ pub(crate) mod lanes;
 
 pub use affine_core::system::Series;
 
+use gaps::{hides_terms, quotient};
+
 use super::drive::{Adaptive, AdaptiveMethod, Control};
 use super::error_norm::ErrorNorm;
 use super::finite::is_finite;
@@ -15,7 +17,7 @@ use super::vectors::Baseline;
 use super::widest::{Work, roomiest, widest};
 use super::{Failure, sound};
 use affine_core::__private::numerics::{
-    HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, sum_of_squares,
+    HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, norm, sum_of_squares,
 };
 use affine_core::model::{Group, StateVector};
 
@@ -49,7 +51,7 @@ pub struct TaylorSteps<S, C, R: Series<S, C>> {
     constants: C,
     error_norm: ErrorNorm,
     order: usize,
-    /// That of [`gaps::quotient`].
+    /// See [`quotient`].
     quotient: f64,
     begin: f64,
     t: f64,
@@ -90,6 +92,11 @@ pub fn order_for(tolerance: f64) -> usize {
     (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
 }
 
+/// Part of a step that is not proved after which it is tried again.
+const AGAIN: core::ops::RangeInclusive<f64> = 0.1..=0.8;
+/// Rounding of the equations and of the polynomial, which no step undoes.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`]; the order is that of
     /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
@@ -128,7 +135,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
             method: TaylorSteps {
                 error_norm,
                 order,
-                quotient: gaps::quotient(control.tolerance, order),
+                quotient: quotient(control.tolerance, order),
                 begin: t0,
                 t: t0,
                 y: y0,
@@ -206,7 +213,9 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         // A rest that is hardly longer is no step of its own.
         let mut end =
             if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
-        if length == f64::INFINITY || self.hides_terms(end - self.t) {
+        let step = (end - self.t, self.unit, self.quotient);
+        let coefficients = &self.coefficients[..=self.order];
+        if length == f64::INFINITY || hides_terms(coefficients, &self.error_norm, step) {
             end = self.proved(end, control);
         }
         if (end - self.t).abs() <= shortest(self.t, control.t_end) && end != control.t_end {
@@ -271,6 +280,47 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
         let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (tolerance, self.unit));
         exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
+    }
+
+    /// The end of a step to a time, or of a shorter one, after which the polynomial `P` solves the equations: there, `h |P' - f(P)|`
+    /// is the first term that is left out times its order, `p + 1` or more, and those behind it.
+    #[cold]
+    #[inline(never)]
+    fn proved(&self, mut end: f64, control: &mut Control) -> f64 {
+        let terms = (self.order + 1) as f64;
+        let allowed = terms * larger(control.tolerance, ROUNDING);
+        loop {
+            let h = end - self.t;
+            let (mut after, mut defect) = (self.rise(Baseline, h), self.arriving(h));
+            after.as_mut().iter_mut().zip(self.y.as_ref()).for_each(|(after, y)| *after += y);
+            let slope = slope(&self.series, &self.constants, end, &after);
+            let rates = slope.as_ref().iter();
+            defect.as_mut().iter_mut().zip(rates).for_each(|(defect, rate)| *defect = h * (*defect - rate));
+            control.statistics.evaluations += 1;
+            let (states, defect) = ([self.y.as_ref(), after.as_ref()], defect.as_ref());
+            let error = self.error_norm.largest(h.abs(), states[0], states[1], |range| norm(&defect[range]));
+            let error = larger(error, self.error_norm.over_energy(states, slope.as_ref(), defect)) / allowed;
+            if error <= 1.0 || h.abs() <= shortest(self.t, control.t_end) {
+                return end;
+            }
+            let part = libm::exp2(-libm::log2(error) / terms);
+            // A defect that is no number is larger than any.
+            let part = if part >= *AGAIN.start() { part } else { *AGAIN.start() };
+            end = self.t + part.min(*AGAIN.end()) * h;
+        }
+    }
+
+    /// `sum_(k > 0) k y_k h^(k - 1)`
+    fn arriving(&self, h: f64) -> S {
+        let h = h / self.unit;
+        let mut rate = S::zeros();
+        for (k, coefficient) in self.coefficients[..=self.order].iter().enumerate().skip(1).rev() {
+            for (rate, coefficient) in rate.as_mut().iter_mut().zip(coefficient.as_ref()) {
+                *rate = *rate * h + k as f64 * coefficient;
+            }
+        }
+        rate.as_mut().iter_mut().for_each(|rate| *rate /= self.unit);
+        rate
     }
 
     /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one

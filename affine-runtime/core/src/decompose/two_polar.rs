@@ -60,13 +60,12 @@ impl<const N: usize> TwoPolar<N> {
     /// differ by more than the range of numbers.
     pub fn of(phi: &Matrix<N>) -> Result<Self> {
         const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
-        let refused = || {
-            let determinant = LogDeterminant::of(phi);
-            let is_lost = |factors: Factors<N>| factors.values.iter().any(|value| *value == 0.0);
-            match determinant.is_positive() && factors(phi).is_none_or(is_lost) {
-                true => Error::NotFinite { quantity: "a quotient of stretches" },
-                false => Error::Placement { determinant: determinant.to_f64() },
+        let is_lost = || factors(phi).is_none_or(|factors| factors.values.min() == 0.0);
+        let refused = || match LogDeterminant::of(phi) {
+            positive if positive.is_positive() && is_lost() => {
+                Error::NotFinite { quantity: "a quotient of stretches" }
             }
+            determinant => Error::Placement { determinant: determinant.to_f64() },
         };
         let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;
         match proper && values.iter().all(|value| *value > 0.0) {

@@ -304,17 +304,11 @@ impl fmt::Display for Setting {
                 "the motion between {from} and {to} is too fast for its steps, or has a kink there, and is not kept to the \
                  tolerance: ask for the time as an output, `.output([{t}])`"
             ),
-            Setting::OutsideRun { t, from, to } => match (to - from) * (t - from) < 0.0 {
-                true => write!(
-                    f,
-                    "time {t} lies outside the run, from {from} to {to}, before the start: run from there, `.from({t})`, or to \
-                     there from the same start, `.until({t})`"
-                ),
-                false => write!(
-                    f,
-                    "time {t} lies outside the run, from {from} to {to}, behind the end: extend the run, `.until({t})`"
-                ),
-            },
+            Setting::OutsideRun { t, from, to } => write!(
+                f,
+                "time {t} lies outside the run from {from} to {to}, {}: let it begin or end there, `.from({t})` or `.until({t})`",
+                if (to - from) * (t - from) < 0.0 { "before the start" } else { "behind the end" }
+            ),
             Setting::NoClosedForm { model } => write!(
                 f,
                 "{model} has no closed form from this start: use Method::Automatic, which takes one only where it \
