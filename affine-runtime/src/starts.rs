@@ -100,6 +100,8 @@ const MOMENTA: usize = 12;
 
 /// Phase points with the placement and the position of one, and momenta of a level: of the [energy](Self::of_energy), or of their
 /// [norm](Self::of_norm).
+///
+/// Not for models under a constraint, whose momenta are no vectors: that does not compile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MomentumLevel<const N: usize, P> {
     point: P,

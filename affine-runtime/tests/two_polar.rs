@@ -123,6 +123,16 @@ fn no_placement_is_refused() {
     }
 }
 
+/// A placement of determinant 1 whose stretches no quotient of numbers tells: it is not said to turn the body inside out.
+#[test]
+fn stretches_that_differ_beyond_all_numbers() {
+    let phi = Matrix::<2>::new(1e200, 1e200, 1e-200, 2e-200);
+    assert!((phi.mean_log_stretch()).abs() < 1e-12, "ln(det phi)/2 = 0");
+    let error = TwoPolar::of(&phi).unwrap_err();
+    assert_eq!(error, Error::NotFinite { quantity: "a quotient of stretches" });
+    assert!(!error.to_string().contains("det phi"), "{error}");
+}
+
 /// A motion with known frames and stretches; `crossings` of its labels between `t = 0` and `t = 1`.
 fn assert_followed<const N: usize>(known: impl Fn(f64) -> TwoPolar<N>, steps: u32, axes: f64) {
     let mut now = known(0.0);

@@ -121,6 +121,91 @@ fn closed_forms_have_the_bits_of_outputs() {
     assert_eq!(at_once.at(2.0).unwrap(), free);
 }
 
+/// A rotation that the skew part of the energy makes, over thousands of radians in a step.
+#[affine_model(dim = 2, kinetic(casimir2 = a, body_inertia = 1), potential = neo_hookean(0.5) + 2*q^2)]
+struct Whirling {
+    a: f64,
+}
+
+#[affine_model(dim = 3, kinetic(casimir2 = a, body_inertia = 1, body_translation = 1))]
+struct WhirlingMissile {
+    a: f64,
+}
+
+/// A dilatation in closed form, over thousands of radians in a step.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = 1),
+    potential = kappa*sinh(q)^2 + neo_hookean(0.5)
+)]
+struct Stiff {
+    kappa: f64,
+}
+
+/// A dense run is within a tenth of its tolerance, placement and momentum each, of a run with outputs, or says that it is not: how
+/// often.
+fn is_close_or_refused<const N: usize, M: Model<N>>(
+    model: &M,
+    start: M::Point<f64>,
+    t_end: f64,
+    tolerance: f64,
+) -> usize {
+    let times = (1..500).map(|k| t_end * f64::from(k) / 500.0);
+    let simulation = || Simulation::new(model, start).until(t_end).tolerance(tolerance);
+    let (outputs, dense) = (simulation().output(times).run().unwrap(), simulation().dense().run().unwrap());
+    let momentum = |point: &M::Point<f64>| point.sigma_hat().0.0.norm();
+    let largest = outputs.points().iter().map(momentum).fold(0.0, f64::max);
+    let mut refused = 0;
+    for (t, point) in outputs.iter() {
+        let found = match dense.at(t) {
+            Ok(found) => found,
+            Err(stop) => {
+                assert!(matches!(stop.reason, Reason::Setting(Setting::NotKept { .. })), "{stop}");
+                assert!(stop.to_string().contains(&format!(".output([{t}])")), "{stop}");
+                refused += 1;
+                continue;
+            }
+        };
+        let placement = (found.phi() - point.phi()).norm() / point.phi().norm()
+            + (found.x() - point.x()).norm() / (point.phi().norm() + point.x().norm());
+        let spin = (found.sigma_hat().0.0 - point.sigma_hat().0.0).norm() / largest;
+        let off = placement.max(spin);
+        assert!(off < 0.3 * tolerance + 1e-10, "{t} at {tolerance:e}: {placement:e} {spin:e}");
+    }
+    refused
+}
+
+/// What steps leave out is kept as well, however fast it is, or a time of it is refused.
+#[test]
+fn motions_that_steps_leave_out() {
+    let (plane, spin) = (Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(0.1, 0.6, -0.5, 0.2));
+    let space = Matrix::<3>::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.15, -0.2, 0.1, 1.05);
+    let space_spin = Matrix::<3>::new(0.1, 0.4, -0.3, -0.2, -0.15, 0.25, 0.35, -0.1, 0.05);
+    for (a, t_end, tolerance, is_kept) in
+        [(0.999, 1.0, 1e-9, true), (0.9999, 1.0, 1e-3, true), (1.0 - 1e-9, 1.0, 1e-3, false)]
+    {
+        let whirling = Whirling { a }.prepare().unwrap();
+        let start = whirling.at_momentum(plane, Comoving(spin)).unwrap();
+        let missile = WhirlingMissile { a }.prepare().unwrap();
+        let (x, p) = (Vector::<3>::zeros(), Vector::<3>::new(0.3, -0.2, 0.5));
+        let thrown = missile.at_momentum(x, space, p, Comoving(space_spin)).unwrap();
+        let of_both = [
+            is_close_or_refused(&whirling, start, t_end, tolerance),
+            is_close_or_refused(&missile, thrown, t_end, tolerance),
+        ];
+        assert_eq!(of_both.map(|refused| refused == 0), [is_kept; 2], "{a} {tolerance:e}");
+    }
+    for (kappa, t_end) in [(1e4, 3.0), (1e6, 1.0), (1e8, 0.1)] {
+        let stiff = Stiff { kappa }.prepare().unwrap();
+        let phi = plane * (1.001 / plane.determinant().sqrt());
+        let start = stiff.at_velocity(phi, Matrix::<2>::new(0.4, 0.4, -0.3, 0.3)).unwrap();
+        for tolerance in [1e-2, 1e-9] {
+            let refused = is_close_or_refused(&stiff, start, t_end, tolerance);
+            assert_eq!(refused, 0, "{kappa:e} {tolerance:e}");
+        }
+    }
+}
+
 /// The energy, which the points of a run keep, is kept between them: a route that knows no outputs.
 #[test]
 fn energy_is_kept_in_between() {
@@ -183,6 +268,12 @@ fn times_that_are_refused() {
         assert!(stop.to_string().contains(".until("), "{stop}");
     }
     assert!(dense.at(f64::NAN).is_err());
+    // Before the start of a run that goes backward, its end is no way to get there.
+    let back = Simulation::new(&cube, thrown(&cube)).from(0.5).until(-0.5).dense().run().unwrap();
+    let stop = back.at(0.6).unwrap_err().to_string();
+    assert!(stop.contains("before the start") && stop.contains(".from(0.6)"), "{stop}");
+    let stop = back.at(-0.6).unwrap_err().to_string();
+    assert!(stop.contains("behind the end") && stop.contains(".until(-0.6)"), "{stop}");
     let error: affine_runtime::Error = dense.at(2.0).unwrap_err().into();
     assert!(error.to_string().contains("2"), "{error}");
 }

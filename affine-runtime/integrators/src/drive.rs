@@ -71,6 +71,9 @@ pub struct Control {
 /// Differential Equations II, section IV.8).
 const AFTER_NO_SOLUTION: f64 = 0.25;
 
+/// A first step that is so many times the shortest can be shortened.
+const ROOM: f64 = 1024.0;
+
 impl Control {
     pub(crate) fn new(
         (t_end, tolerance): (f64, f64),
@@ -91,6 +94,8 @@ impl Control {
     ) -> Result<(), Failure> {
         method.begin(self);
         let t = method.t();
+        // Where times are far apart, no step is short: what is not finite then does not belong to the motion.
+        let has_room = self.statistics.steps > 0 || self.length > ROOM * shortest(t, t);
         loop {
             let end = next_time(t, self.length, self.t_end);
             if end == t {
@@ -106,7 +111,7 @@ impl Control {
                 }
                 Some((_, error)) => {
                     self.length = tried * self.controller.reject(error);
-                    if error.is_finite() { Failure::StepUnderflow } else { Failure::NotFinite }
+                    if error.is_finite() || !has_room { Failure::StepUnderflow } else { Failure::NotFinite }
                 }
                 None => {
                     self.length = AFTER_NO_SOLUTION * tried;

@@ -166,6 +166,20 @@ impl ErrorNorm {
         self
     }
 
+    /// The size of a value of the work, which the norm does not measure, over that of the work or of twice the kinetic energy,
+    /// `sum |g| |phi'|`, whichever is larger; zero where there is neither.
+    #[inline(never)]
+    pub(crate) fn over_energy(&self, [before, after]: [&[f64]; 2], slope: &[f64], value: &[f64]) -> f64 {
+        let Some(work) = self.range_of(Quantity::Work) else { return 0.0 };
+        let energies = self.groups.iter().enumerate().filter_map(|(k, group)| {
+            let moved = self.moved_by(group)?;
+            Some(norm(&after[self.range(k)]) * norm(&slope[moved]))
+        });
+        let done = larger(norm(&before[work.clone()]), norm(&after[work.clone()]));
+        let scale = larger(energies.sum(), done);
+        if scale == 0.0 { 0.0 } else { norm(&value[work]) / scale }
+    }
+
     /// The groups that the norm measures, one after the other.
     pub(crate) fn groups(&self) -> &'static [Group] {
         self.groups

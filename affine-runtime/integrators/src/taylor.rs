@@ -1,8 +1,11 @@
 //! Taylor series method with choice of order and step.
 
+mod gaps;
 pub(crate) mod lanes;
 
 pub use affine_core::system::Series;
+
+use gaps::{hides_terms, quotient};
 
 use super::drive::{Adaptive, AdaptiveMethod, Control};
 use super::error_norm::ErrorNorm;
@@ -14,7 +17,7 @@ use super::vectors::Baseline;
 use super::widest::{Work, roomiest, widest};
 use super::{Failure, sound};
 use affine_core::__private::numerics::{
-    HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, sum_of_squares,
+    HIGHEST_ORDER, IN_RANGE as USUAL_SQUARES, LOWEST_ORDER, Vectors, larger, norm, sum_of_squares,
 };
 use affine_core::model::{Group, StateVector};
 
@@ -28,13 +31,17 @@ use affine_core::model::{Group, StateVector};
 /// tolerance` in the [`ErrorNorm`] for `j = p - 1` and `p`, times `exp(-0.7/(p - 1))`: it follows from the coefficients
 /// alone, and no step is rejected. Two terms, since every other one vanishes for an even or odd solution.
 ///
+/// Series may have longer gaps, `x'' = -x^(k - 1)` from `x = 0` has one of `k` orders: where the last two terms are less than those
+/// before let expect, where they vanish, and below order 8, the step is proved before it is taken, by the defect `P' - f(P)` of
+/// the polynomial at its end, and shortened to what that allows.
+///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
 ///
 /// The polynomial is the dense output. Steps are summed with compensation.
 ///
 /// Cost: one set of coefficients per step, which [`Statistics`](crate::Statistics) count as a series; at the start one evaluation for each
-/// component of a momentum and one more.
+/// component of a momentum and one more; one for each time that a step is proved.
 pub type Taylor<S, C, R> = Adaptive<TaylorSteps<S, C, R>>;
 
 /// Steps by Taylor polynomials.
@@ -44,6 +51,8 @@ pub struct TaylorSteps<S, C, R: Series<S, C>> {
     constants: C,
     error_norm: ErrorNorm,
     order: usize,
+    /// See [`quotient`].
+    quotient: f64,
     begin: f64,
     t: f64,
     y: S,
@@ -83,6 +92,11 @@ pub fn order_for(tolerance: f64) -> usize {
     (order as usize).clamp(LOWEST_ORDER, HIGHEST_ORDER)
 }
 
+/// Part of a step that is not proved after which it is tried again.
+const AGAIN: core::ops::RangeInclusive<f64> = 0.1..=0.8;
+/// Rounding of the equations and of the polynomial, which no step undoes.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
     /// The integration at its start: `groups` lay out the state vector for the [`ErrorNorm`]; the order is that of
     /// [`order_for`] unless given, and within [`LOWEST_ORDER`] and [`HIGHEST_ORDER`].
@@ -121,6 +135,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
             method: TaylorSteps {
                 error_norm,
                 order,
+                quotient: quotient(control.tolerance, order),
                 begin: t0,
                 t: t0,
                 y: y0,
@@ -196,7 +211,13 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         }
         let rest = control.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
-        let end = if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
+        let mut end =
+            if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
+        let step = (end - self.t, self.unit, self.quotient);
+        let coefficients = &self.coefficients[..=self.order];
+        if length == f64::INFINITY || hides_terms(coefficients, &self.error_norm, step) {
+            end = self.proved(end, control);
+        }
         if (end - self.t).abs() <= shortest(self.t, control.t_end) && end != control.t_end {
             return Err(Failure::StepUnderflow);
         }
@@ -259,6 +280,47 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
         let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (tolerance, self.unit));
         exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
+    }
+
+    /// The end of a step to a time, or of a shorter one, after which the polynomial `P` solves the equations: there, `h |P' - f(P)|`
+    /// is the first term that is left out times its order, `p + 1` or more, and those behind it.
+    #[cold]
+    #[inline(never)]
+    fn proved(&self, mut end: f64, control: &mut Control) -> f64 {
+        let terms = (self.order + 1) as f64;
+        let allowed = terms * larger(control.tolerance, ROUNDING);
+        loop {
+            let h = end - self.t;
+            let (mut after, mut defect) = (self.rise(Baseline, h), self.arriving(h));
+            after.as_mut().iter_mut().zip(self.y.as_ref()).for_each(|(after, y)| *after += y);
+            let slope = slope(&self.series, &self.constants, end, &after);
+            let rates = slope.as_ref().iter();
+            defect.as_mut().iter_mut().zip(rates).for_each(|(defect, rate)| *defect = h * (*defect - rate));
+            control.statistics.evaluations += 1;
+            let (states, defect) = ([self.y.as_ref(), after.as_ref()], defect.as_ref());
+            let error = self.error_norm.largest(h.abs(), states[0], states[1], |range| norm(&defect[range]));
+            let error = larger(error, self.error_norm.over_energy(states, slope.as_ref(), defect)) / allowed;
+            if error <= 1.0 || h.abs() <= shortest(self.t, control.t_end) {
+                return end;
+            }
+            let part = libm::exp2(-libm::log2(error) / terms);
+            // A defect that is no number is larger than any.
+            let part = if part >= *AGAIN.start() { part } else { *AGAIN.start() };
+            end = self.t + part.min(*AGAIN.end()) * h;
+        }
+    }
+
+    /// `sum_(k > 0) k y_k h^(k - 1)`
+    fn arriving(&self, h: f64) -> S {
+        let h = h / self.unit;
+        let mut rate = S::zeros();
+        for (k, coefficient) in self.coefficients[..=self.order].iter().enumerate().skip(1).rev() {
+            for (rate, coefficient) in rate.as_mut().iter_mut().zip(coefficient.as_ref()) {
+                *rate = *rate * h + k as f64 * coefficient;
+            }
+        }
+        rate.as_mut().iter_mut().for_each(|rate| *rate /= self.unit);
+        rate
     }
 
     /// `sum_(k > 0) y_k h^k`, by powers of `h` alone: those of a rounded `h^2` would be off by the same in every step of one

@@ -6,21 +6,28 @@ use crate::error::Reason;
 use crate::inner::{larger, norm};
 use crate::numbers::Numbers;
 
-/// Degrees of polynomials: they are doubled until the next one adds nothing, and the highest is for what none is enough for.
+/// Degrees of polynomials: they are doubled until the next one adds nothing.
 const LOWEST_DEGREE: usize = 4;
 const HIGHEST_DEGREE: usize = 32;
-/// A step that no degree is enough for is halved so many times.
-const MOST_HALVINGS: u32 = 5;
-/// Differences of so many bounds that halving leaves as they are belong to rounding.
-const NEAR_THE_BOUND: f64 = 1024.0;
+/// Part of its difference from the motion that a polynomial of the double degree has at least where there is a kink within it, or
+/// a motion with more turns than that degree can follow: both are parted.
+const HARDLY_NEARER: f64 = 0.125;
+/// Parts that are halved so many times and more are those around a kink: a step over more turns is not kept.
+const MOST_HALVINGS_OF_ALL: u32 = 12;
+/// Around a kink a step is halved so many times.
+const MOST_HALVINGS: u32 = 30;
+/// Times so many roundings apart are close to each other: third differences of a motion that a polynomial nearly follows are less
+/// over them than its rounding.
+const CLOSE: f64 = (1 << 15) as f64 * f64::EPSILON;
+/// Larger differences are none of rounding.
+const LARGEST_ROUNDING: f64 = 1e-3;
+/// Rounding makes so many of its third differences of the difference from a polynomial, at the most.
+const OF_ROUNDING: f64 = 16.0;
 /// Times are known to a few roundings, and the motion changes by its size within a step.
 const ROUNDINGS: f64 = 4.0;
 /// A part of the interval by which a value beside a Chebyshev point does not differ from that there. Reciprocals of smaller ones
 /// may be no numbers.
 const NEXT_TO_A_POINT: f64 = 1e-150;
-/// What an error of a momentum may move the placement by within a step is a part of the placement's own error, as for steps:
-/// see [`ErrorNorm`](affine_integrators::ErrorNorm).
-const PART_OF_DISPLACEMENT: f64 = 0.1;
 
 /// A polynomial in time, by its values at the Chebyshev points of an interval, ends included.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,21 +35,37 @@ pub(super) struct Polynomial {
     pub(super) from: f64,
     pub(super) to: f64,
     degree: usize,
+    /// It stands for the motion between its ends too.
+    is_close: bool,
     /// Numbers of a phase point in `N` dimensions, point after point.
     values: Box<[f64]>,
 }
 
 impl Polynomial {
+    /// One that stands for nothing but its ends.
+    pub(super) fn of_ends<const N: usize>(begin: (f64, Numbers), end: (f64, Numbers)) -> Self {
+        Self::new::<N>((begin.0, end.0), &[begin.1, end.1], false)
+    }
+
+    fn new<const N: usize>((from, to): (f64, f64), values: &[Numbers], is_close: bool) -> Self {
+        let width = 2 * N * (N + 1);
+        let numbers = values.iter().flat_map(|value| value[..width].iter().copied()).collect();
+        Self { from, to, degree: values.len() - 1, is_close, values: numbers }
+    }
+
     /// Its value, by the barycentric formula (J.-P. Berrut, L. N. Trefethen, SIAM Review 46 (2004) 501-517): that of a
-    /// Chebyshev point there, bit by bit.
-    pub(super) fn at(&self, t: f64) -> Numbers {
+    /// Chebyshev point there, bit by bit. `None` where it does not stand for the motion.
+    pub(super) fn at(&self, t: f64) -> Option<Numbers> {
+        if !self.is_close && t != self.from && t != self.to {
+            return None;
+        }
         let part = (t - self.from) / (self.to - self.from);
-        interpolated(part, self.degree, |k| {
+        Some(interpolated(part, self.degree, |k| {
             let width = self.values.len() / (self.degree + 1);
             let mut value = [0.0; 24];
             value[..width].copy_from_slice(&self.values[k * width..(k + 1) * width]);
             value
-        })
+        }))
     }
 }
 
@@ -70,13 +93,31 @@ fn interpolated(part: f64, degree: usize, value: impl Fn(usize) -> Numbers) -> N
 /// What polynomials are made from.
 pub(super) struct Fit<'f, const N: usize> {
     /// The motion.
-    pub(super) at: &'f mut dyn FnMut(f64) -> Result<Numbers, Reason>,
+    at: &'f mut dyn FnMut(f64) -> Result<Numbers, Reason>,
     /// The largest difference from it, relative to the sizes of what it consists of.
-    pub(super) bound: f64,
+    bound: f64,
+    /// Polynomials that may still be made.
+    left: &'f mut usize,
 }
 
-impl<const N: usize> Fit<'_, N> {
-    /// Polynomials from a time to another, given the numbers at both, handed over in their order.
+/// Values at the Chebyshev points of an interval, and what the polynomial through them is off the motion.
+struct Fitted {
+    values: Vec<Numbers>,
+    scales: [f64; 4],
+    difference: f64,
+}
+
+impl<'f, const N: usize> Fit<'f, N> {
+    pub(super) fn new(
+        at: &'f mut dyn FnMut(f64) -> Result<Numbers, Reason>,
+        bound: f64,
+        left: &'f mut usize,
+    ) -> Self {
+        Self { at, bound, left }
+    }
+
+    /// Polynomials from a time to another, given the numbers at both, handed over in their order. Those that are not close do
+    /// not stand for the motion but at their ends: none is within the bound, or there are too many.
     ///
     /// # Errors
     /// Those of the motion.
@@ -86,6 +127,9 @@ impl<const N: usize> Fit<'_, N> {
         end: (f64, Numbers),
         each: &mut dyn FnMut(Polynomial),
     ) -> Result<(), Reason> {
+        // Times that are rounded are those of another point.
+        let rounding = f64::EPSILON * larger(begin.0.abs(), end.0.abs()) / (end.0 - begin.0).abs();
+        self.bound = larger(self.bound, ROUNDINGS * rounding);
         self.halved(begin, end, (0, f64::INFINITY), each)
     }
 
@@ -97,68 +141,69 @@ impl<const N: usize> Fit<'_, N> {
         (halvings, before): (u32, f64),
         each: &mut dyn FnMut(Polynomial),
     ) -> Result<(), Reason> {
-        // Times that are rounded are those of another point.
-        let rounding = f64::EPSILON * larger(begin.0.abs(), end.0.abs()) / (end.0 - begin.0).abs();
-        let bound = larger(self.bound, ROUNDINGS * rounding);
-        let (polynomial, difference) = self.polynomial(begin, end, bound)?;
-        let middle = begin.0 + 0.5 * (end.0 - begin.0);
-        let is_rounding = difference <= NEAR_THE_BOUND * bound && difference > 0.5 * before;
-        let is_parted = middle != begin.0 && middle != end.0;
-        if difference <= bound || is_rounding || halvings == MOST_HALVINGS || !is_parted {
-            each(polynomial);
+        let (span, middle) = ((begin.0, end.0), begin.0 + 0.5 * (end.0 - begin.0));
+        if *self.left == 0 || halvings > MOST_HALVINGS || middle == begin.0 || middle == end.0 {
+            each(Polynomial::of_ends::<N>(begin, end));
+            return Ok(());
+        }
+        let highest = if halvings > MOST_HALVINGS_OF_ALL { LOWEST_DEGREE } else { HIGHEST_DEGREE };
+        let fitted = self.fitted(begin, end, highest)?;
+        let is_close = fitted.difference <= self.bound
+            || fitted.difference > 0.5 * before && self.is_rounding(span, &fitted)?;
+        if is_close {
+            *self.left -= 1;
+            each(Polynomial::new::<N>(span, &fitted.values, true));
             return Ok(());
         }
         let middle = (middle, (self.at)(middle)?);
-        self.halved(begin, middle, (halvings + 1, difference), each)?;
-        self.halved(middle, end, (halvings + 1, difference), each)
+        self.halved(begin, middle, (halvings + 1, fitted.difference), each)?;
+        self.halved(middle, end, (halvings + 1, fitted.difference), each)
     }
 
-    /// The first polynomial that the motion agrees with at the points of the double degree, or the last one, with the largest
-    /// difference.
-    fn polynomial(
+    /// The first polynomial that the motion agrees with at the points between its own, or the last one that is tried, with what
+    /// is known of the largest difference.
+    fn fitted(
         &mut self,
         (from, begin): (f64, Numbers),
         (to, end): (f64, Numbers),
-        bound: f64,
-    ) -> Result<(Polynomial, f64), Reason> {
-        let mut degree = LOWEST_DEGREE;
+        highest: usize,
+    ) -> Result<Fitted, Reason> {
+        let (mut degree, mut before) = (1, f64::INFINITY);
         let mut values = vec![begin, end];
-        self.refine((from, to), LOWEST_DEGREE, &mut values)?;
         loop {
-            let coarse = values.clone();
-            self.refine((from, to), 2 * degree, &mut values)?;
-            let scales = scales::<N>(&values);
-            let difference = (1..2 * degree).step_by(2).fold(0.0, |most, k| {
-                let between = interpolated(chebyshev(k, 2 * degree), degree, |k| coarse[k]);
-                larger(most, difference::<N>(&values[k], &between, &scales))
-            });
-            if difference <= bound || 2 * degree == HIGHEST_DEGREE {
-                let (degree, values) =
-                    if difference <= bound { (degree, coarse) } else { (2 * degree, values) };
-                let width = 2 * N * (N + 1);
-                let values = values.iter().flat_map(|value| value[..width].iter().copied()).collect();
-                return Ok((Polynomial { from, to, degree, values }, difference));
+            let (scales, enough) = (scales::<N>(&values), larger(self.bound, HARDLY_NEARER * before));
+            let (mut finer, mut difference) = (Vec::with_capacity(2 * degree + 1), 0.0);
+            for (k, value) in values[..degree].iter().enumerate() {
+                let part = chebyshev(2 * k + 1, 2 * degree);
+                let next = (self.at)(from + part * (to - from))?;
+                let between = interpolated(part, degree, |k| values[k]);
+                difference = larger(difference, apart::<N>(&next, &between, &scales));
+                finer.extend([*value, next]);
+                if degree >= LOWEST_DEGREE && difference > enough {
+                    return Ok(Fitted { values, scales, difference });
+                }
             }
-            degree *= 2;
+            if degree >= LOWEST_DEGREE && (difference <= self.bound || degree >= highest) {
+                return Ok(Fitted { values, scales, difference });
+            }
+            finer.push(end);
+            before = if degree >= LOWEST_DEGREE { difference } else { f64::INFINITY };
+            (degree, values) = (2 * degree, finer);
         }
     }
 
-    /// The motion at the Chebyshev points of a degree, from where it is known at those of a lower one.
-    fn refine(
-        &mut self,
-        (from, to): (f64, f64),
-        degree: usize,
-        values: &mut Vec<Numbers>,
-    ) -> Result<(), Reason> {
-        let apart = degree / (values.len() - 1);
-        let known = core::mem::take(values);
-        for k in 0..=degree {
-            values.push(match k % apart {
-                0 => known[k / apart],
-                _ => (self.at)(from + chebyshev(k, degree) * (to - from))?,
-            });
+    /// What a polynomial is off the motion by is the rounding of the motion itself.
+    fn is_rounding(&mut self, (from, to): (f64, f64), fitted: &Fitted) -> Result<bool, Reason> {
+        let close = CLOSE * larger(from.abs(), to.abs()).copysign(to - from);
+        if fitted.difference > LARGEST_ROUNDING || 8.0 * close.abs() > (to - from).abs() {
+            return Ok(false);
         }
-        Ok(())
+        let mut third = [0.0; 24];
+        for (k, weight) in [1.0, -3.0, 3.0, -1.0].into_iter().enumerate() {
+            let value = (self.at)(from + 0.375 * (to - from) + k as f64 * close)?;
+            third.iter_mut().zip(value).for_each(|(third, value)| *third += weight * value);
+        }
+        Ok(fitted.difference <= OF_ROUNDING * apart::<N>(&third, &[0.0; 24], &fitted.scales))
     }
 }
 
@@ -172,7 +217,7 @@ fn sized(numbers: &Numbers, (from, to): (usize, usize)) -> f64 {
     norm(&numbers[from..to])
 }
 
-fn difference<const N: usize>(a: &Numbers, b: &Numbers, scales: &[f64; 4]) -> f64 {
+fn apart<const N: usize>(a: &Numbers, b: &Numbers, scales: &[f64; 4]) -> f64 {
     let mut off = *a;
     off.iter_mut().zip(b).for_each(|(a, b)| *a -= b);
     groups::<N>().into_iter().zip(scales).fold(0.0, |most, (group, scale)| match sized(&off, group) {
@@ -181,27 +226,11 @@ fn difference<const N: usize>(a: &Numbers, b: &Numbers, scales: &[f64; 4]) -> f6
     })
 }
 
-/// What differences are measured against, group by group, as errors of steps are: see [`ErrorNorm`](affine_integrators::ErrorNorm).
+/// What differences are measured against, group by group; a position may be zero, and is held against the placement too.
 fn scales<const N: usize>(values: &[Numbers]) -> [f64; 4] {
-    let [phi, spin, x, p] = groups::<N>();
-    let largest = |group| values.iter().fold(0.0, |most, value| larger(most, sized(value, group)));
-    let moved = |group| {
-        let displacement = |value: &Numbers| {
-            let mut displacement = *value;
-            displacement.iter_mut().zip(values[0]).for_each(|(value, begin)| *value -= begin);
-            sized(&displacement, group)
-        };
-        values.iter().fold(0.0, |most, value| larger(most, displacement(value)))
-    };
-    let placement = largest(phi);
-    let position = placement + largest(x);
-    let slack = |reach: f64, moved: f64| larger(1.0, PART_OF_DISPLACEMENT * reach / moved);
-    [
-        placement,
-        largest(spin) * slack(placement, moved(phi)),
-        position,
-        largest(p) * slack(position, moved(x)),
-    ]
+    let [phi, spin, x, p] =
+        groups::<N>().map(|group| values.iter().fold(0.0, |most, value| larger(most, sized(value, group))));
+    [phi, spin, phi + x, p]
 }
 
 #[cfg(test)]
@@ -224,7 +253,9 @@ mod tests {
         };
         let mut pieces = Vec::new();
         let ends = [(from, numbers(from)), (to, numbers(to))];
-        Fit::<2> { at: &mut at, bound }.cover(ends[0], ends[1], &mut |piece| pieces.push(piece)).unwrap();
+        Fit::<2>::new(&mut at, bound, &mut 4096)
+            .cover(ends[0], ends[1], &mut |piece| pieces.push(piece))
+            .unwrap();
         (pieces, calls)
     }
 
@@ -232,9 +263,9 @@ mod tests {
         pieces.iter().fold(0.0, |worst, piece| {
             let off = |k: u32| {
                 let t = piece.from + (piece.to - piece.from) * f64::from(k) / 97.0;
-                (piece.at(t)[0] - motion(t)).abs()
+                piece.at(t).map(|value| (value[0] - motion(t)).abs())
             };
-            (0..=97).map(off).fold(worst, f64::max)
+            (0..=97).filter_map(off).fold(worst, f64::max)
         })
     }
 
@@ -247,11 +278,11 @@ mod tests {
             assert_eq!((pieces[0].from, pieces[0].to), (from, to));
             let rounding = f64::EPSILON * from.abs();
             assert!(worst(&pieces, |t| motion(t - from)) < 1e-13 + 4.0 * rounding);
-            assert_eq!(pieces[0].at(to)[0], motion(to - from), "the ends are kept");
+            assert_eq!(pieces[0].at(to).unwrap()[0], motion(to - from), "the ends are kept");
             assert_eq!(pieces[0].values.len(), 5 * 12, "numbers of two dimensions");
         }
         let (pieces, _) = covered(motion, (0.0, 1.0), 1e-13);
-        assert_eq!(pieces[0].at(5e-324)[0], 1.0, "beside an end");
+        assert_eq!(pieces[0].at(5e-324).unwrap()[0], 1.0, "beside an end");
     }
 
     #[test]
@@ -280,6 +311,6 @@ mod tests {
         let (pieces, calls) = covered(|t| if t < 0.3 { 0.0 } else { 1.0 }, (0.0, 1.0), 1e-12);
         assert!(pieces.len() <= 32 && calls < 2000, "{} {calls}", pieces.len());
         let (pieces, _) = covered(|_| 0.25, (1.0, 1.0_f64.next_up()), 1e-12);
-        assert_eq!((pieces.len(), pieces[0].at(1.0)[0]), (1, 0.25));
+        assert_eq!((pieces.len(), pieces[0].at(1.0).unwrap()[0]), (1, 0.25));
     }
 }

@@ -152,22 +152,20 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 
     /// The phase point at any time of a run that was asked to be [`dense`](super::Simulation::dense), an output or not: within a
-    /// tenth of the tolerance of what an output there would be, and the same where a step ends or a closed form is known. At
-    /// the time of an event that changes the point, the point before.
+    /// tenth of the tolerance of what an output there would be, or of the rounding of that, and the same where a step ends or a
+    /// closed form is known. At the time of an event that changes the point, the point before.
     ///
     /// # Errors
     /// A [`Stop`] with [`Setting::NotDense`] for a run that was not asked to be, and with [`Setting::OutsideRun`] for a time
-    /// before its start, or that of the part that was resumed, or behind its end, wherever that was.
+    /// before its start, or that of the part that was resumed, or behind its end, wherever that was. With [`Setting::NotKept`]
+    /// for a time at which the motion could not be kept as closely.
     pub fn at(&self, t: f64) -> Result<P, Stop> {
         let refused =
             |setting: Setting| Stop { reason: setting.into(), t: self.end.0, steps: self.statistics.steps };
         let dense = self.dense.as_deref().ok_or_else(|| refused(Setting::NotDense { t }))?;
-        let (from, to) = dense.interval().unwrap_or((self.start.0, self.end.0));
-        match t == self.start.0 && t == from {
+        match t == self.start.0 && t == dense.interval().0 {
             true => Ok(self.start.1),
-            false => {
-                dense.at(t, self.bases.as_deref()).ok_or_else(|| refused(Setting::OutsideRun { t, from, to }))
-            }
+            false => dense.at(t, self.bases.as_deref()).map_err(refused),
         }
     }
 

@@ -249,6 +249,21 @@ fn overflow_is_not_finite() {
     assert_eq!(halt.trajectory.times(), [0.0], "the start is good");
 }
 
+/// Doubles near 1e17 are 16 apart: that is said, not that the model is to blame.
+#[test]
+fn times_that_are_far_apart() {
+    for method in [Method::RungeKutta8, Method::RungeKutta5, Method::Radau { stages: None }] {
+        for from in [1e17, -1e17, 1e20] {
+            let run = Simulation::new(&Planar::SPRING, planar::start(0.5))
+                .from(from)
+                .until(from + 1e3 * from.abs() * 2e-16);
+            let halt = run.method(method).run().unwrap_err();
+            assert!(matches!(halt.stop.reason, Reason::StepUnderflow { .. }), "{method:?} {from:e}: {halt}");
+            assert!(halt.to_string().contains("further apart than steps"), "{halt}");
+        }
+    }
+}
+
 #[test]
 fn step_limit_keeps_the_trajectory() {
     let halt = Simulation::new(&DrunkMissile, drunk_missile::start())

@@ -56,10 +56,17 @@ impl<const N: usize> TwoPolar<N> {
     ///
     /// # Errors
     /// [`Error::Placement`] where an entry is not finite or the determinant is not positive, for `n = 3` as far as rounding
-    /// shows it: certain where the condition number is below about `1/(10 eps)`.
+    /// shows it: certain where the condition number is below about `1/(10 eps)`. [`Error::NotFinite`] where stretches of a placement
+    /// differ by more than the range of numbers.
     pub fn of(phi: &Matrix<N>) -> Result<Self> {
         const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
-        let refused = || Error::Placement { determinant: LogDeterminant::of(phi).to_f64() };
+        let is_lost = || factors(phi).is_none_or(|factors| factors.values.min() == 0.0);
+        let refused = || match LogDeterminant::of(phi) {
+            positive if positive.is_positive() && is_lost() => {
+                Error::NotFinite { quantity: "a quotient of stretches" }
+            }
+            determinant => Error::Placement { determinant: determinant.to_f64() },
+        };
         let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;
         match proper && values.iter().all(|value| *value > 0.0) {
             true => Ok(Self { left, stretches: values, right }),

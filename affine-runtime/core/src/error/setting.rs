@@ -198,6 +198,18 @@ pub enum Setting {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         to: f64,
     },
+    /// A run was asked for a time at which no polynomial stands for its motion.
+    NotKept {
+        /// The time.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        t: f64,
+        /// Since when.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        from: f64,
+        /// Until when.
+        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
+        to: f64,
+    },
     /// `Method::ClosedForm` was asked for and there is none.
     NoClosedForm {
         /// Name of the model.
@@ -301,9 +313,15 @@ impl fmt::Display for Setting {
                 f,
                 "the run has not kept what lies between its outputs: run it with `.dense()`, or with `.output([{t}])`"
             ),
+            Setting::NotKept { t, from, to } => write!(
+                f,
+                "the motion between {from} and {to} is too fast for its steps, or has a kink there, and is not kept to the \
+                 tolerance: ask for the time as an output, `.output([{t}])`"
+            ),
             Setting::OutsideRun { t, from, to } => write!(
                 f,
-                "time {t} lies outside the run, from {from} to {to}: extend it, `.until({t})`, or begin it there"
+                "time {t} lies outside the run from {from} to {to}, {}: let it begin or end there, `.from({t})` or `.until({t})`",
+                if (to - from) * (t - from) < 0.0 { "before the start" } else { "behind the end" }
             ),
             Setting::NoClosedForm { model } => write!(
                 f,

@@ -266,9 +266,9 @@ impl fmt::Display for Reason {
             ),
             Reason::StepUnderflow { tolerance } => write!(
                 f,
-                "the error stays above the tolerance {tolerance:e} however short the step: the motion runs into a \
-                 singularity, the tolerance is finer than rounding allows, or the interval is longer than 1e30 steps; \
-                 end the run before, or loosen the tolerance"
+                "the error stays above the tolerance {tolerance:e} however short the step: the motion runs into a singularity, \
+                 the tolerance is finer than rounding allows, the interval is longer than 1e30 steps, or doubles near these \
+                 times are further apart than steps; end the run before, or loosen the tolerance"
             ),
             Reason::NoSolution { residual, step } => write!(
                 f,
