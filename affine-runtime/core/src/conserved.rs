@@ -64,8 +64,7 @@ impl Components {
 
 /// The sum of the multiples of what stands for the entries.
 fn sum(component: Component, value: impl Fn(&Entry) -> Option<f64>) -> Option<f64> {
-    let each = component.entries.iter().map(|entry| Some(entry.factor as f64 * value(entry)?));
-    each.sum()
+    component.entries.iter().map(|entry| Some(entry.factor as f64 * value(entry)?)).sum()
 }
 
 /// Where an entry stands among the [components](Components::as_slice) of its momentum.
@@ -150,8 +149,7 @@ impl Conserved {
             Self::VorticityNorm => sigma_hat() * sigma_hat(),
             Self::CanonicalMomentum => norm(point.pi().0.0.as_slice()),
             Self::Component(Component { entries, .. }) => {
-                let each = entries.iter().map(|e| Some(e.factor.abs() as f64 * e.of.scale(point, bases)?));
-                each.sum::<Option<f64>>()?
+                return entries.iter().map(|e| Some(e.factor.abs() as f64 * e.of.scale(point, bases)?)).sum();
             }
         })
     }

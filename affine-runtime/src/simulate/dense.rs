@@ -112,8 +112,7 @@ impl<const N: usize, P: Phase<N>> Dense<N, P> {
         match self.pieces.get(index).filter(|_| is_within) {
             None => Err(Setting::OutsideRun { t, from, to }),
             Some(Piece::Polynomial(polynomial)) => {
-                let Polynomial { from, to, .. } = *polynomial;
-                let mut numbers = polynomial.at(t).ok_or(Setting::NotKept { t, from, to })?.into_iter();
+                let mut numbers = polynomial.at(t).ok_or(Setting::NotKept { t })?.into_iter();
                 Ok(self.reached.1.with_entries(&mut || numbers.next().unwrap_or(f64::NAN)))
             }
             Some(Piece::ClosedForm { start: (from, start), .. }) if t == *from => Ok(*start),

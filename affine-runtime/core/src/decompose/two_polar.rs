@@ -62,9 +62,7 @@ impl<const N: usize> TwoPolar<N> {
         const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
         let is_lost = || factors(phi).is_none_or(|factors| factors.values.min() == 0.0);
         let refused = || match LogDeterminant::of(phi) {
-            positive if positive.is_positive() && is_lost() => {
-                Error::NotFinite { quantity: "a quotient of stretches" }
-            }
+            log if log.is_positive() && is_lost() => Error::NotFinite { quantity: "a quotient of stretches" },
             determinant => Error::Placement { determinant: determinant.to_f64() },
         };
         let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;

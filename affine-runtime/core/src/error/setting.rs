@@ -203,12 +203,6 @@ pub enum Setting {
         /// The time.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
-        /// Since when.
-        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
-        from: f64,
-        /// Until when.
-        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
-        to: f64,
     },
     /// `Method::ClosedForm` was asked for and there is none.
     NoClosedForm {
@@ -313,10 +307,10 @@ impl fmt::Display for Setting {
                 f,
                 "the run has not kept what lies between its outputs: run it with `.dense()`, or with `.output([{t}])`"
             ),
-            Setting::NotKept { t, from, to } => write!(
+            Setting::NotKept { t } => write!(
                 f,
-                "the motion between {from} and {to} is too fast for its steps, or has a kink there, and is not kept to the \
-                 tolerance: ask for the time as an output, `.output([{t}])`"
+                "the motion about {t} is too fast for its steps, or has a kink there, and is not kept to the tolerance: ask for \
+                 the time as an output, `.output([{t}])`"
             ),
             Setting::OutsideRun { t, from, to } => write!(
                 f,
