@@ -16,7 +16,8 @@ pub(super) fn quotient(tolerance: f64, order: usize) -> f64 {
 
 /// The last two coefficients may say too little of a step.
 ///
-/// The largest of the terms of the third quarter of a series, of the last quarter and of the last two are nearly a geometric sequence where there is a pole, and fall a little faster where there is none. Of a series with gaps, in which `k - 1` of `k`
+/// The largest of the terms of the third quarter of a series, of the last quarter and of the last two are nearly a geometric
+/// sequence where there is a pole, and fall a little faster where there is none. Of a series with gaps, in which `k - 1` of `k`
 /// terms vanish or nearly so, the last two may be much less than those before let expect. That matters where one of those is
 /// above the geometric sequence that ends at the tolerance: a step is too long then.
 #[inline(always)]
