@@ -56,7 +56,8 @@ impl Components {
         Self::collect((0..N * N).map(|k| m[(k / N, k % N)]))
     }
 
-    fn skew<const N: usize>(m: &Matrix<N>) -> Self {
+    fn skew<const N: usize>(tensor: impl Tensor<N>, bases: Option<&Bases<N>>) -> Self {
+        let m = tensor.components(bases);
         let above = (0..N * N).map(|k| (k / N, k % N)).filter(|(a, b)| a < b);
         Self::collect(above.map(|(a, b)| m[(a, b)]))
     }
@@ -95,18 +96,16 @@ impl Conserved {
             Self::Energy => return None,
             Self::LinearMomentum => Components::vector(&point.p()),
             Self::ComovingLinearMomentum => Components::vector(&point.p_hat().0.0),
-            Self::OrbitalAngularMomentum => {
-                Components::skew(&there.orbital_angular_momentum().components(bases))
-            }
+            Self::OrbitalAngularMomentum => Components::skew(there.orbital_angular_momentum(), bases),
             Self::TotalAffineMomentum => Components::matrix(&point.total_affine_momentum().0.0),
-            Self::TotalAngularMomentum => Components::skew(&there.total_angular_momentum().components(bases)),
+            Self::TotalAngularMomentum => Components::skew(there.total_angular_momentum(), bases),
             Self::AffineSpin => Components::matrix(&point.sigma().0.0),
             Self::Deviator => Components::matrix(&point.sigma().deviator().0.0),
-            Self::Spin => Components::skew(&there.spin().components(bases)),
+            Self::Spin => Components::skew(there.spin(), bases),
             Self::SpinNorm => Components::number(there.spin().norm_squared()),
             Self::ComovingAffineSpin => Components::matrix(&point.sigma_hat().0.0),
             Self::ComovingDeviator => Components::matrix(&point.sigma_hat().deviator().0.0),
-            Self::Vorticity => Components::skew(&there.vorticity().components(bases)),
+            Self::Vorticity => Components::skew(there.vorticity(), bases),
             Self::VorticityNorm => Components::number(there.vorticity().norm_squared()),
             Self::CanonicalMomentum => Components::matrix(&point.pi().0.0),
             Self::Casimir1 => Components::number(point.casimir(1)),

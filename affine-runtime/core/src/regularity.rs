@@ -30,11 +30,8 @@ impl Regularity {
         let mut found = Self { negative: 0, weakest: 1.0 };
         for k in 0..K {
             let pivot = rest[at(k, k)];
-            if pivot == 0.0 {
-                // Nothing is left to divide by.
-                return Self { weakest: 0.0, ..found };
-            }
-            found = found.and(Self { negative: usize::from(pivot < 0.0), weakest: pivot.abs() / sizes[k] });
+            let weakest = if pivot == 0.0 { 0.0 } else { pivot.abs() / sizes[k] };
+            found = found.and(Self { negative: usize::from(pivot < 0.0), weakest });
             for i in k + 1..K {
                 let factor = rest[at(k, i)] / pivot;
                 sizes[i] += (factor * rest[at(k, i)]).abs();
@@ -49,9 +46,9 @@ impl Regularity {
     /// That of a matrix of two blocks.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        // NaN stays.
-        let weakest =
-            if self.weakest <= other.weakest || self.weakest.is_nan() { self.weakest } else { other.weakest };
+        // NaN stays, and so does 0: what follows it is divided by 0.
+        let stays = self.weakest.is_nan() || self.weakest == 0.0 || self.weakest <= other.weakest;
+        let weakest = if stays { self.weakest } else { other.weakest };
         Self { negative: self.negative + other.negative, weakest }
     }
 

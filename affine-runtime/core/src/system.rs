@@ -151,9 +151,9 @@ pub trait Packing<S, C> {
     fn slope(&self, vectors: impl Vectors, t: f64, constants: &C, packed: &Self::Packed) -> Self::Packed;
 }
 
-/// `phi' = T'(Pi)`, `Pi' = F(t, phi)`, with a centre of mass or without, and with the work of its forces: the motion of a body without its constraint
-/// `det phi = 1`, for a method that solves for the multiplier. Models have it that are masses under forces that depend on
-/// positions alone.
+/// `phi' = T'(Pi)`, `Pi' = F(t, phi)`, with a centre of mass or without, and with the work of its forces: the motion of a body
+/// without its constraint `det phi = 1`, for a method that solves for the multiplier. Models have it that are masses under forces
+/// that depend on positions alone.
 pub trait Unconstrained {
     /// Placement and canonical momentum, with the centre of mass where there is one, and with the work where that is accounted for.
     type State: StateVector<f64>;

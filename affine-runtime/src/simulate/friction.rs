@@ -146,14 +146,14 @@ pub(super) fn is_stiff(rate: f64, time: f64) -> bool {
 ///
 /// # Errors
 /// [`Reason::Friction`].
-pub(super) fn is_followed(method: Method, t: f64, rate: impl FnOnce() -> Option<f64>) -> Result<(), Reason> {
+pub(super) fn is_followed(method: Method, rate: impl FnOnce() -> Option<f64>) -> Result<(), Reason> {
     let (order, step, most) = match method {
         Method::Splitting { order: order @ (4 | 6), step } => (order, step, WITHIN_A_STEP),
         Method::Splitting { order: order @ 8, step } => (order, step, WITHIN_A_STEP_OF_8),
         _ => return Ok(()),
     };
     match rate() {
-        Some(rate) if rate * step > most => Err(Reason::Friction { order, rate, longest: most / rate, t }),
+        Some(rate) if rate * step > most => Err(Reason::Friction { order, rate, longest: most / rate }),
         _ => Ok(()),
     }
 }

@@ -41,7 +41,7 @@ impl<const N: usize> Guard<N> {
         asked: (Method, f64),
     ) -> Result<Self, Reason> {
         if t_end > since {
-            is_followed(asked.0, since, || model.rate_of_friction(since, start))?;
+            is_followed(asked.0, || model.rate_of_friction(since, start))?;
         }
         let signature = Signature::of(model.regularity(start.phi()));
         let (passes, description) = (passes_through_zero(model.description()), model.description());
@@ -110,7 +110,7 @@ impl<const N: usize> Guard<N> {
         let (t, steps) = (motion.t(), motion.statistics().steps);
         // Each look costs the evaluations of some steps.
         if t > self.since && steps.is_power_of_two() {
-            is_followed(asked.0, t, || model.rate_of_friction(t, &motion.reached().0))?;
+            is_followed(asked.0, || model.rate_of_friction(t, &motion.reached().0))?;
         }
         Ok(self.moment.is_some())
     }

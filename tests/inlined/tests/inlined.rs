@@ -11,7 +11,7 @@ use std::fs;
 use object::{Object, ObjectSection, ObjectSymbol, Relocation, RelocationFlags, RelocationTarget, elf};
 
 /// What may be called from anywhere, by beginnings of names.
-const RARELY: [&str; 13] = [
+const RARELY: [&str; 14] = [
     // Faults that cannot happen, and moves of numbers.
     "core::panicking::",
     "core::slice::index::",
@@ -25,13 +25,15 @@ const RARELY: [&str; 13] = [
     "affine_integrators::runge_kutta::judged::scaled_error",
     "affine_integrators::taylor::TaylorSteps<S,C,R>::is_in_range::{{closure}}",
     "affine_integrators::taylor::TaylorSteps<S,C,R>::takes_a_unit",
+    // Where a series may have gaps.
+    "affine_integrators::taylor::TaylorSteps<S,C,R>::proved",
     "libm::math::exp::exp",
     "libm::math::log::log",
 ];
 
 /// What may be called from one place of a function. The stages of a step are written out, so that a right-hand side which is not
 /// inlined is called from a dozen.
-const ONCE: [&str; 9] = [
+const ONCE: [&str; 10] = [
     // The choice of the next step.
     "affine_integrators::step_size::Controller::accept",
     "affine_integrators::step_size::Controller::reject",
@@ -43,6 +45,8 @@ const ONCE: [&str; 9] = [
     "affine_integrators::error_norm::ErrorNorm::moved_by",
     // One evaluation among those of a step in single numbers.
     "affine_runtime::simulate::by_equations::reduced::{{closure}}::{{closure}}",
+    // What the last terms of a series say of a step.
+    "affine_integrators::taylor::gaps::are_irregular",
     // The length of the first step of a run in lanes.
     "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F,R>::first_step::{{closure}}",
 ];

@@ -60,16 +60,14 @@ impl<const N: usize> TwoPolar<N> {
     /// differ by more than the range of numbers.
     pub fn of(phi: &Matrix<N>) -> Result<Self> {
         const { assert!(N == 2 || N == 3, "two-polar decompositions are of 2x2 and 3x3 matrices") };
-        let is_lost = || factors(phi).is_none_or(|factors| factors.values.min() == 0.0);
-        let refused = || match LogDeterminant::of(phi) {
-            log if log.is_positive() && is_lost() => Error::NotFinite { quantity: "a quotient of stretches" },
+        let found = factors(phi);
+        let is_lost = found.as_ref().is_none_or(|found| found.values.min() == 0.0);
+        let found = found.filter(|found| found.proper && found.values.iter().all(|value| *value > 0.0));
+        let found = found.map(|Factors { left, values, right, .. }| Self { left, stretches: values, right });
+        found.ok_or_else(|| match LogDeterminant::of(phi) {
+            log if log.is_positive() && is_lost => Error::NotFinite { quantity: "a quotient of stretches" },
             determinant => Error::Placement { determinant: determinant.to_f64() },
-        };
-        let Factors { left, values, right, proper } = factors(phi).ok_or_else(refused)?;
-        match proper && values.iter().all(|value| *value > 0.0) {
-            true => Ok(Self { left, stretches: values, right }),
-            false => Err(refused()),
-        }
+        })
     }
 
     /// `phi = L D R^T`.

@@ -268,8 +268,7 @@ impl fmt::Display for Setting {
             }
             Setting::EventLevel { event, given } => write!(
                 f,
-                "the event `{event}` waits for the value {given:e}, which nothing has: levels are finite numbers, and stretches \
-                 are positive"
+                "the event `{event}` waits for {given:e}, which nothing has: levels are finite, and stretches positive"
             ),
             Setting::Checkpoint { model } => write!(
                 f,
@@ -309,8 +308,7 @@ impl fmt::Display for Setting {
             ),
             Setting::NotKept { t } => write!(
                 f,
-                "the motion about {t} is too fast for its steps, or has a kink there, and is not kept to the tolerance: ask for \
-                 the time as an output, `.output([{t}])`"
+                "the motion about {t} is too fast or has a kink, and is not kept to the tolerance: ask for an output, `.output([{t}])`"
             ),
             Setting::OutsideRun { t, from, to } => write!(
                 f,

@@ -107,9 +107,6 @@ pub enum Reason {
         /// The longest step of this order under such friction.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         longest: f64,
-        /// The time.
-        #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
-        t: f64,
     },
     /// A method that forms `det phi`, Runge-Kutta-Nystrom or splitting under a potential in `q` or `D`, where it or its
     /// inverse is no normal number.
@@ -247,9 +244,9 @@ impl fmt::Display for Reason {
                  the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
                  coefficients whose sum is definite at every placement"
             ),
-            Reason::Friction { order, rate, longest, t } => write!(
+            Reason::Friction { order, rate, longest } => write!(
                 f,
-                "friction takes velocities away at a rate of {rate:.2e} at t = {t}: splitting of order {order}, like all above 2, goes \
+                "friction takes velocities away at a rate of {rate:.2e}: splitting of order {order}, like all above 2, goes \
                  back in time on its way, where friction gives back what it has taken, and more the longer the step; take order \
                  2, steps of at most {longest:.1e}, or Method::Radau {{ stages: None }}"
             ),

@@ -1,8 +1,11 @@
 //! Steps whose last two coefficients do not tell what they leave out.
 
+use core::ops::Range;
+
 use crate::error_norm::ErrorNorm;
-use affine_core::__private::numerics::{HIGHEST_ORDER, larger, square, sum_of_squares};
+use affine_core::__private::numerics::{HIGHEST_ORDER, larger, norm, square, sum_of_squares};
 use affine_core::model::StateVector;
+use affine_core::scalar::Scalar;
 
 /// Series of lower orders may end before the first term after a gap: `x'' = -x^7` from `x = 0` has `t^1`, `t^9`, `t^17`.
 const TOLD_BY_TERMS: usize = 8;
@@ -30,22 +33,56 @@ pub(super) fn hides_terms<S: StateVector<f64>>(
     if order < TOLD_BY_TERMS {
         return true;
     }
-    let ratio = square(h / (unit * quotient));
+    let ratio = h.abs() / (unit * quotient);
     let (mut weights, mut weight) = ([0.0; HIGHEST_ORDER + 1], 1.0);
-    for place in &mut weights[1..=order] {
-        weight *= ratio;
+    for place in &mut weights[..=order] {
         *place = weight;
+        weight *= ratio;
     }
     let (third, last_two) = (order / 2, order - 1);
     let last = (third + last_two) / 2;
-    let y = coefficients[0].as_ref();
-    let excess = error_norm.largest(h.abs(), y, y, |range| {
-        let of_order = |j: usize| weights[j] * sum_of_squares(&coefficients[j].as_ref()[range.clone()]);
-        let [a, b, c] = [third..last, last..last_two, last_two..order + 1]
-            .map(|window| window.map(of_order).fold(0.0, larger));
-        let (middle, ends, slack) = (b * b, a * c, square(NEARLY_GEOMETRIC));
-        let is_regular = middle <= slack * ends && ends <= slack * middle;
-        if is_regular { 0.0 } else { libm::sqrt(larger(a, b)) }
+    // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
+    let a = largest(&coefficients[third..last], &weights[third..last]);
+    let b = largest(&coefficients[last..last_two], &weights[last..last_two]);
+    let c = largest(&coefficients[last_two..], &weights[last_two..]);
+    are_irregular(error_norm, h, coefficients[0].as_ref(), [a.as_ref(), b.as_ref(), c.as_ref()])
+}
+
+/// The largest terms are no geometric sequence, and one of those before the last two is above that which ends at the tolerance. A
+/// function of numbers alone: it is compiled once for all models.
+#[inline(never)]
+fn are_irregular(error_norm: &ErrorNorm, h: f64, y: &[f64], [a, b, c]: [&[f64]; 3]) -> bool {
+    let is_regular = |range: &Range<usize>| {
+        let (a, b) = (sum_of_squares(&a[range.clone()]), sum_of_squares(&b[range.clone()]));
+        let (middle, ends, slack) = (b * b, a * sum_of_squares(&c[range.clone()]), square(NEARLY_GEOMETRIC));
+        middle <= slack * ends && ends <= slack * middle
+    };
+    let mut start = 0;
+    let are_regular = error_norm.groups().iter().all(|group| {
+        let range = start..start + group.len;
+        start = range.end;
+        is_regular(&range)
+    });
+    // As a rule.
+    if are_regular {
+        return false;
+    }
+    let excess = error_norm.largest(h.abs(), y, y, |range| match is_regular(&range) {
+        true => 0.0,
+        false => larger(norm(&a[range.clone()]), norm(&b[range])),
     });
     excess > 1.0
+}
+
+/// The largest of some terms, component by component: in vectors, where sizes of groups would be single numbers.
+#[inline(always)]
+fn largest<S: StateVector<f64>>(coefficients: &[S], weights: &[f64]) -> S {
+    let mut largest = S::zeros();
+    for (coefficient, weight) in coefficients.iter().zip(weights) {
+        for (largest, component) in largest.as_mut().iter_mut().zip(coefficient.as_ref()) {
+            let term = weight * Scalar::abs(*component);
+            *largest = if term > *largest { term } else { *largest };
+        }
+    }
+    largest
 }

@@ -109,7 +109,7 @@ where
         let (state, constants) = model.reduce(t, point);
         let has_value = !H::Model::DESCRIPTION.custom_potential || model.hamiltonian(t, point).is_finite();
         let rate = || rate_of_friction::<N, H::Model>(model, (t, point)).rate;
-        let is_followed = || is_followed(self.method, t, rate).is_ok();
+        let is_followed = || is_followed(self.method, rate).is_ok();
         let fits = has_value && is_followed() && !is_looked_after(model, point) && stands::<N, H>(&state);
         if fits {
             self.integration.put(lane, &state);
