@@ -142,7 +142,7 @@ struct Stiff {
     kappa: f64,
 }
 
-/// A dense run is within a tenth of its tolerance, placement and momentum each, of a run with outputs, or says that it is not: how
+/// A dense run is within a third of its tolerance, placement and momentum each, of a run with outputs, or says that it is not: how
 /// often.
 fn is_close_or_refused<const N: usize, M: Model<N>>(
     model: &M,

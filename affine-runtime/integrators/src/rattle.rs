@@ -43,8 +43,8 @@ const START: f64 = 1e-10;
 /// Where the state holds the work too, whose time derivative is the power, a step adds `h/2` times the powers at its ends: with
 /// that it is as symmetric, and compositions give the work to their order.
 ///
-/// One evaluation for each step of RATTLE, two where the state holds the work; at the start two and one for each component of the momenta, from which the
-/// matrix of `T'` is read.
+/// One evaluation for each step of RATTLE, two where the state holds the work; at the start two and one for each component of the
+/// momenta, from which the matrix of `T'` is read.
 pub type Rattle<const N: usize, S, F> = Equal<RattleSteps<N, S, F>>;
 
 /// Steps of RATTLE.
@@ -71,9 +71,9 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<RattleSteps
     /// The integration at its start; `groups` lay out the state.
     ///
     /// # Errors
-    /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, with the work or without, and velocities are
-    /// linear in the momenta and independent of the placement; [`Failure::OffConstraint`] where the start is not on the
-    /// constraints; [`Failure::NotFinite`]; [`Failure::StepUnderflow`] where `step` is not positive, or gives more
+    /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, with the work or without, and
+    /// velocities are linear in the momenta and independent of the placement; [`Failure::OffConstraint`] where the start is not on
+    /// the constraints; [`Failure::NotFinite`]; [`Failure::StepUnderflow`] where `step` is not positive, or gives more
     /// steps than there are floating-point times.
     pub fn new(
         f: F,

@@ -77,8 +77,8 @@ impl<'a, const N: usize, M: Model<N>> Simulation<'a, N, M> {
     /// stay what they are.
     ///
     /// A step is kept as a polynomial of degree 4, 8, 16 or 32 for each number of a phase point, in several parts where that is not
-    /// enough, within a tenth of the tolerance of the sizes of placement, affine spin and linear momentum in each part; methods
-    /// with equal steps take the tolerance for that alone. Of degree 8, the rule at the default, it is 1.7 kB in three dimensions and
+    /// enough: within a tenth of the tolerance of the sizes of placement, affine spin and linear momentum at the times of each part
+    /// at which it is looked at, and within a third between them. Methods with equal steps take the tolerance for that alone. Of degree 8, the rule at the default, it is 1.7 kB in three dimensions and
     /// 0.9 kB in two. A closed form is kept as it is, in some hundred bytes.
     ///
     /// A rotation or a dilatation that steps leave out, since they are known in closed form, takes half a kilobyte a radian in three

@@ -152,7 +152,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 
     /// The phase point at any time of a run that was asked to be [`dense`](super::Simulation::dense), an output or not: within a
-    /// tenth of the tolerance of what an output there would be, or of the rounding of that, and the same where a step ends or a
+    /// third of the tolerance of what an output there would be, or of the rounding of that, and the same where a step ends or a
     /// closed form is known. At the time of an event that changes the point, the point before.
     ///
     /// # Errors

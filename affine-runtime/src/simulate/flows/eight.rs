@@ -9,7 +9,8 @@ use crate::simulate::motion::PointOf;
 
 /// Eight bodies, or fewer, in lanes.
 pub(super) trait Eight<const N: usize, H: Handle<N>> {
-    /// Puts a body that has taken so many steps into a lane at the time reached; `false` where it is to move by itself, and the lane stays as it is.
+    /// Puts a body that has taken so many steps into a lane at the time reached; `false` where it is to move by itself, and the lane
+    /// stays as it is.
     fn put(&mut self, lane: usize, handle: &H, point: &PointOf<N, H>, steps: u64) -> bool;
 
     /// Steps that the body in a lane has taken.

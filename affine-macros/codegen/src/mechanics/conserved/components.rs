@@ -82,8 +82,8 @@ impl Rates {
     }
 
     /// The conserved combinations, without those that follow from others, vanish, or follow from momenta that are conserved as a
-    /// whole. `bases` are those of metrics that are numbers. `values` gives the momenta at points where more ties them to each other than that `Sigma` and `Sigma_hat` have one
-    /// trace.
+    /// whole. `bases` are those of metrics that are numbers. `values` gives the momenta at points where more ties them to each
+    /// other than that `Sigma` and `Sigma_hat` have one trace.
     pub(super) fn components(
         &self,
         whole: &[Candidate],
