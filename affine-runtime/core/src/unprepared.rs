@@ -43,10 +43,10 @@ pub trait Unprepared<const N: usize> {}
 
 /// What `at_momentum` and `at_velocity` of a struct with fields ask of it in vain; nothing implements it.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not prepared: a struct with fields becomes a model by `.prepare()?`",
+    message = "`{Self}` is not prepared: a struct with coefficients to compute becomes a model by `.prepare()?`",
     label = "`.prepare()?` is missing before this",
-    note = "`prepare()` checks the values of the fields and computes the coefficients of the equations: \
-            `let model = {Self} {{ .. }}.prepare()?;`"
+    note = "`prepare()` checks the values of the fields and computes the coefficients of the equations, \
+            those of fields as those of numbers like `sqrt(2)`: `let model = {Self} {{ .. }}.prepare()?;`"
 )]
 pub trait IsPrepared {
     /// What follows from it.

@@ -26,7 +26,8 @@ pub struct Modes<const N: usize> {
     pub zeros: usize,
     /// The placement at rest.
     pub rest: Matrix<N>,
-    /// Those in which the metrics are the identity.
+    /// Those in which the metrics are the identity, for pictures.
+    #[cfg(feature = "report")]
     bases: Option<Bases<N>>,
 }
 
@@ -126,10 +127,17 @@ impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
         };
         let alike = |a: &usize, b: &usize| (own(*a) - own(*b)).abs() <= ALIKE * largest;
         let modes = moving.chunk_by(alike).map(mode).collect();
-        Ok(Modes { modes, zeros: zero.len(), rest: *self.point.phi(), bases })
+        Ok(Modes {
+            modes,
+            zeros: zero.len(),
+            rest: *self.point.phi(),
+            #[cfg(feature = "report")]
+            bases,
+        })
     }
 }
 
+#[cfg(feature = "report")]
 impl<const N: usize> Modes<N> {
     /// The placement at rest with a shape, in bases in which the metrics are the identity.
     pub(super) fn measured(&self, shape: &Velocity<N>) -> (Matrix<N>, Velocity<N>) {

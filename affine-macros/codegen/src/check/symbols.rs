@@ -70,8 +70,13 @@ fn unresolved(
                 .chain(SYMBOLS.iter().map(|(name, _)| (*name).to_owned()))
                 .chain(more.iter().map(|name| (*name).to_owned()))
                 .collect();
-            let name = name.to_string();
             let in_potential = !more.is_empty();
+            if let Some(&(name, meaning)) = POTENTIAL_SYMBOLS.iter().find(|(symbol, _)| name == symbol)
+                && !in_potential
+            {
+                return Some(ExpressionMistake::NotConstant { name, meaning });
+            }
+            let name = name.to_string();
             let nearest = application(&name)
                 .filter(|_| in_potential)
                 .or_else(|| nearest(&name, scope.iter().map(String::as_str)).map(str::to_owned));

@@ -85,6 +85,18 @@ pub enum ExpressionMistake {
         /// The names in scope.
         scope: Vec<String>,
     },
+    /// A symbol of potentials where a constant stands.
+    NotConstant {
+        /// The symbol.
+        name: &'static str,
+        /// What it means.
+        meaning: &'static str,
+    },
+    /// `if`, `match`.
+    Branch {
+        /// The word.
+        word: String,
+    },
     /// A field in an expression that is not an `f64`.
     FieldType {
         /// The field.
@@ -138,6 +150,8 @@ names! { ExpressionMistake
     FlatMatrix => "flat-matrix",
     MissingComma => "missing-comma",
     UnknownSymbol => "unknown-symbol",
+    NotConstant => "not-constant",
+    Branch => "branch",
     FieldType => "field-type",
     HiddenSymbol => "hidden-symbol",
     Exponent => "exponent",
@@ -241,6 +255,18 @@ impl ExpressionMistake {
                     },
                 )
             }
+            Self::NotConstant { name, meaning } => text(
+                format!("`{name}` is {meaning}, and here a constant stands"),
+                "a coefficient is the same at every time and wherever the body is: arithmetic over numbers, fields and `n`",
+                "write a number, or a field of another name; what changes on the way belongs in `potential`, or in a force \
+                 that a field computes, `forces = custom(..)`",
+            ),
+            Self::Branch { word } => text(
+                format!("`{word}` is a branch, and an expression has none"),
+                "equations are derived from the expression, exactly, and a force would jump at the branch",
+                "write a smooth function, or keep what branches in a field: a number, or a potential that it computes, \
+                 `custom(field, general)`",
+            ),
             Self::FieldType { field, ty, is_matrix: true } => text(
                 format!("the field `{field}` has type `{ty}` and cannot stand in an expression"),
                 "an expression is a real number, and a field of matrix type stands alone, as in `body_inertia = j`",

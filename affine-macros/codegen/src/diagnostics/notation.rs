@@ -206,7 +206,12 @@ impl NotationMistake {
             Self::RepeatedKey { list, key } => text(
                 format!("`{key}` stands twice in `{list}(...)`"),
                 "an item is given once; two values would contradict each other or hide a slip",
-                "keep one of them; coefficients may be sums, as in `casimir2 = a + b`",
+                match *list {
+                    "kinetic" | "hamiltonian" | "dissipation" => {
+                        "keep one of them; coefficients may be sums, as in `casimir2 = a + b`"
+                    }
+                    _ => "keep one of them",
+                },
             ),
             Self::MissingKey { key, states, example } => text(
                 format!("`affine_model(...)` lacks `{key}`"),

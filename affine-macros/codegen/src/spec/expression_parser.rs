@@ -142,6 +142,9 @@ impl<'p> Parser<'p> {
         self.last = token.span().into();
         match token {
             TokenTree::Literal(literal) => self.number(&literal),
+            TokenTree::Ident(word) if word == "if" || word == "match" => {
+                Err(self.found.report(self.last, ExpressionMistake::Branch { word: word.to_string() }))
+            }
             TokenTree::Ident(name) => self.symbol(name),
             // A fragment of `macro_rules!` arrives in an invisible group and is one operand, as in Rust.
             TokenTree::Group(group)

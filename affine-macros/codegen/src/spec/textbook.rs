@@ -4,7 +4,10 @@
 const QUANTITIES: [(&[&str], &str); 11] = [
     (&["J"], "write `det` for det phi"),
     (&["F"], "write `phi` for the deformation gradient"),
-    (&["C"], "write `G` for the right Cauchy-Green tensor phi^T phi"),
+    (
+        &["C"],
+        "write `G` for the right Cauchy-Green tensor phi^T phi, or `Ct^-1` for the Cauchy deformation tensor, as in `tr(Ct^-1)`",
+    ),
     (&["B", "b"], "write `Ct` for the left Cauchy-Green tensor phi phi^T"),
     (
         &["E"],
