@@ -26,8 +26,7 @@ pub struct Modes<const N: usize> {
     pub zeros: usize,
     /// The placement at rest.
     pub rest: Matrix<N>,
-    /// Those in which the metrics are the identity, for pictures.
-    #[cfg(feature = "report")]
+    /// Those in which the metrics are the identity.
     bases: Option<Bases<N>>,
 }
 
@@ -113,42 +112,30 @@ impl<const N: usize, P: Phase<N>> RelativeEquilibrium<N, P> {
         let own = |k: usize| eigen.eigenvalues[k];
         let (zero, moving): (Vec<usize>, Vec<usize>) =
             order.into_iter().partition(|k| own(*k).abs() <= ALIKE * largest);
-        let bases = model.bases();
+        let (zeros, rest, bases) = (zero.len(), *self.point.phi(), model.bases());
+        let found = Modes { modes: Vec::new(), zeros, rest, bases };
         let frame = Frame::of(model.orthonormal::<f64>(&self.point).phi());
         let mode = |group: &[usize]| {
             let shapes: Vec<_> = group.iter().map(|k| shape(&vectors.column(*k).into_owned())).collect();
             Mode {
                 squared: group.iter().map(|k| own(*k)).sum::<f64>() / group.len() as f64,
                 error: 10.0 * f64::EPSILON * largest * group.len() as f64,
-                class: frame
-                    .class(&shapes.iter().map(|shape| measured(bases.as_ref(), shape)).collect::<Vec<_>>()),
+                class: frame.class(&shapes.iter().map(|shape| found.measured(shape).1).collect::<Vec<_>>()),
                 shapes,
             }
         };
         let alike = |a: &usize, b: &usize| (own(*a) - own(*b)).abs() <= ALIKE * largest;
         let modes = moving.chunk_by(alike).map(mode).collect();
-        Ok(Modes {
-            modes,
-            zeros: zero.len(),
-            rest: *self.point.phi(),
-            #[cfg(feature = "report")]
-            bases,
-        })
+        Ok(Modes { modes, ..found })
     }
 }
 
-#[cfg(feature = "report")]
 impl<const N: usize> Modes<N> {
     /// The placement at rest with a shape, in bases in which the metrics are the identity.
     pub(super) fn measured(&self, shape: &Velocity<N>) -> (Matrix<N>, Velocity<N>) {
         let bases = self.bases.as_ref();
-        (bases.map_or(self.rest, |bases| bases.placement(&self.rest)), measured(bases, shape))
+        bases.map_or((self.rest, *shape), |bases| (bases.placement(&self.rest), bases.velocity(shape)))
     }
-}
-
-/// A shape in bases in which the metrics are the identity.
-fn measured<const N: usize>(bases: Option<&Bases<N>>, shape: &Velocity<N>) -> Velocity<N> {
-    bases.map_or(*shape, |bases| bases.velocity(shape))
 }
 
 /// `M` and `K` over the places, from `q' = A_qp p` and `p' = A_pq q`.
