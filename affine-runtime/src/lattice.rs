@@ -16,6 +16,7 @@
 
 mod circle;
 mod classify;
+mod confinement;
 pub(crate) mod conversion;
 mod flow;
 pub(crate) mod pieces;

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::{Lattice, LatticeForm, TwoPolarForm, Variables};
-use crate::error::Error;
+use crate::error::{Error, Setting};
 use crate::frames::Matrix;
 use crate::integrate::{Failure, RungeKutta8};
 use crate::model::{Group, Quantity};
@@ -63,6 +63,8 @@ pub enum StopReason {
         /// Its value.
         given: f64,
     },
+    /// The length of a fixed step makes no sense.
+    Setting(Setting),
     /// Two angles of U(n) coincide or are opposite, or a fixed step does not resolve how two places meet: there the
     /// equations have a pole.
     Coincidence {
@@ -298,6 +300,7 @@ impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StopReason::Integration(failure) => failure.fmt(f),
+            StopReason::Setting(setting) => setting.fmt(f),
             StopReason::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of double \
