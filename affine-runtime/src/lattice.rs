@@ -19,6 +19,7 @@ mod classify;
 mod confinement;
 pub(crate) mod conversion;
 mod flow;
+mod interval;
 pub(crate) mod pieces;
 mod ratios;
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use affine_oracle::Random;
 use affine_runtime::frames::Matrix;
 use affine_runtime::lattice::{Dilatation, Growth, MotionClass, TwoPolarForm};
 use affine_runtime::prelude::*;
@@ -32,10 +33,27 @@ models! {
     Root = q - 2*k*sqrt(q);
     Attraction = q^2 - k/q^2;
     Hills = k*(q^2 - 1)^2;
-    Bump = q^2 + k*exp(-1000*(q - 1)^2);
+    Bump = q^2 + k*exp(-1e6*(q - 1)^2);
     Gas = k*det^(-1);
     Volume = k*(det - 1)^2;
     Dissociation = dissociation(k);
+}
+
+/// Waves, a hump and a hole in a well.
+#[affine_model(
+    dim = 2,
+    kinetic(casimir2 = 0.2, body_inertia = 1),
+    potential = 0.01*q^4 + a*sin(3*q) + b*cos(7*q) + c*exp(-200*(q - h)^2) - e/(1 + 50*(q - f)^2) + g*tanh(q),
+    emit(two_polar)
+)]
+struct Drawn {
+    a: f64,
+    b: f64,
+    c: f64,
+    h: f64,
+    e: f64,
+    f: f64,
+    g: f64,
 }
 
 /// A mass that is negative, and a potential that is so too.
@@ -193,13 +211,41 @@ fn humps_divide() {
         assert!(low < from && from < high, "{part}: {found:?}");
     }
     let model = Bump { k: 8.0 }.prepare().unwrap();
-    let potential = |q: f64| q * q + 8.0 * (-1000.0 * (q - 1.0) * (q - 1.0)).exp();
+    let potential = |q: f64| q * q + 8.0 * (-1e6 * (q - 1.0) * (q - 1.0)).exp();
     let found = dilatation!(model, 0.0, 3.0);
     assert_confined(found, potential, (0.0, 3.0), [(0.0, -3.0), (0.0, 1.0)]);
     // The threshold of a well that is open on both sides.
     let model = Dissociation { k: 2.0 }.prepare().unwrap();
     assert_eq!(class!(model, 0.0, threshold), None);
     assert_eq!(dilatation!(model, 0.0, 1.001 * threshold), Some(Dilatation::Free));
+}
+
+/// The first places on both sides where the energy is used up, found by small steps.
+#[test]
+fn drawn_potentials_confine_where_a_fine_search_says() {
+    let mut random = Random::new(230);
+    let mut number = |size: f64| size * random.integer(-9973, 9973) as f64 / 9973.0;
+    for _ in 0..100 {
+        let [a, b, c, h, e, f, g] = [1.0, 0.5, 3.0, 2.0, 2.0, 2.0, 1.0].map(&mut number);
+        let (q, p) = (number(2.0), number(4.0));
+        let model = Drawn { a, b, c, h, e, f, g }.prepare().unwrap();
+        let potential = |q: f64| {
+            let waves = 0.01 * q.powi(4) + a * (3.0 * q).sin() + b * (7.0 * q).cos() + g * q.tanh();
+            waves + c * (-200.0 * (q - h).powi(2)).exp() - e / (1.0 + 50.0 * (q - f).powi(2))
+        };
+        // The model's own place, to its rounding.
+        let margin = |at: f64| 0.5 * p * p * INVERSE_MASS + potential(q) - potential(at);
+        let [lower, upper] = [-1e-4, 1e-4].map(|step| {
+            let at = |k: u32| q + step * f64::from(k);
+            let beyond = (1..).find(|k| margin(at(*k)) < 0.0).unwrap();
+            (at(beyond - 1), at(beyond))
+        });
+        let Some(Dilatation::Confined { from, to }) = dilatation!(model, q, p) else { panic!("{a} {q} {p}") };
+        for (found, within) in [(from, lower), (to, upper)] {
+            let expected = turning(potential, (q, p), within);
+            assert!((found - expected).abs() <= 1e-9, "{q}, {p}: {found} is not {expected}");
+        }
+    }
 }
 
 /// What is far from the undeformed state decides.

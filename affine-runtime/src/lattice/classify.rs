@@ -17,12 +17,15 @@
 
 use core::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-use super::confinement::{ROUNDING, confinement};
+use super::confinement::confinement;
 use super::{MetricSide, PotentialClass, TwoPolarForm};
 use crate::frames::Matrix;
 use crate::inner::norm;
 use crate::kinematics::Kinematics;
 use crate::state::Phase;
+
+/// What is zero to rounding, in units of `eps` times the sizes it is made of.
+const ROUNDING: f64 = 32.0;
 
 /// What becomes of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,14 +78,11 @@ pub enum Dilatation {
 
 impl MotionClass {
     /// The class of the motion through a phase point by the exact criterion, and by a search for turning points where there is a
-    /// potential.
+    /// potential, which passes no barrier and no pole.
     ///
     /// `None` where there is no criterion: for d'Alembert's model, whose free motions are straight lines, for potentials of more
     /// than `q = ln(det phi)/n`, and for points that are not finite. `None` too where the dilatation comes to the end of the domain
     /// of its potential, where it is at rest on top of a hump, and where its energy is that of a hump, to rounding.
-    ///
-    /// The search sees barriers wider than 1/32 in `q`, narrower ones that show beside the rest of the potential, and the poles that
-    /// [`Description::domain`](crate::model::Description::domain) lists.
     #[must_use]
     pub fn of<const N: usize, M: TwoPolarForm<N>>(model: &M, point: &M::Point<f64>) -> Option<Self> {
         let isotropic = model.isotropic()?;
