@@ -24,7 +24,8 @@ pub(crate) mod pieces;
 mod ratios;
 
 pub use circle::CircleFlow;
-pub use classify::{Dilatation, Growth, MotionClass};
+pub use classify::{Growth, MotionClass};
+pub use confinement::Dilatation;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
 pub use pieces::{LatticePieces, LatticeSplitting};

@@ -257,6 +257,9 @@ fn expansions_are_not_bounded() {
         assert_eq!(class.dilatation, Dilatation::Free);
         assert!(!class.is_bounded());
     }
+    for q in [-250.0, 250.0] {
+        assert_eq!(dilatation!(model, q, 1.0), Some(Dilatation::Free));
+    }
     // p^2/(2m) is more than the height at det = 0, or less.
     let model = Volume { k: 1.0 }.prepare().unwrap();
     assert_eq!(dilatation!(model, 0.0, 5.0), Some(Dilatation::Free));

@@ -17,7 +17,7 @@
 
 use core::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-use super::confinement::confinement;
+use super::confinement::{Dilatation, confinement};
 use super::{MetricSide, PotentialClass, TwoPolarForm};
 use crate::frames::Matrix;
 use crate::inner::norm;
@@ -53,27 +53,6 @@ pub enum Growth {
     },
     /// On the threshold to rounding: `sigma` is nilpotent and not zero, and the stretches part like a power of time.
     Marginal,
-}
-
-/// What becomes of the dilatation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Dilatation {
-    /// No dilatational momentum, and no force of a potential: the volume is constant.
-    Still,
-    /// No potential, or a constant one: `q = q0 + rate t`.
-    Uniform {
-        /// `p_dil/(n(I + A + nB))`.
-        rate: f64,
-    },
-    /// The potential confines it: `q` moves between two turning points.
-    Confined {
-        /// The lower one.
-        from: f64,
-        /// The upper one.
-        to: f64,
-    },
-    /// No turning point on one side at least, for `|q|` up to 230.
-    Free,
 }
 
 impl MotionClass {

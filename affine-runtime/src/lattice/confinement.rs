@@ -6,7 +6,7 @@
 //! over it, or falls all over it and is negative at its end. Otherwise it is halved. So no pole and no barrier is stepped over.
 
 use super::interval::Interval;
-use super::{Dilatation, Isotropic, TwoPolarForm};
+use super::{Isotropic, TwoPolarForm};
 use crate::dual::Dual;
 use crate::model::StateVector;
 use crate::scalar::Real;
@@ -17,6 +17,27 @@ const FARTHEST: f64 = 230.0;
 const LONGEST: f64 = 0.25;
 /// Steps on one side, at most: a hundred times those over a smooth potential.
 const MOST_STEPS: u32 = 1 << 17;
+
+/// What becomes of the dilatation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dilatation {
+    /// No dilatational momentum, and no force of a potential: the volume is constant.
+    Still,
+    /// No potential, or a constant one: `q = q0 + rate t`.
+    Uniform {
+        /// `p_dil/(n(I + A + nB))`.
+        rate: f64,
+    },
+    /// The potential confines it: `q` moves between two turning points.
+    Confined {
+        /// The lower one.
+        from: f64,
+        /// The upper one.
+        to: f64,
+    },
+    /// No turning point on one side at least, for `|q|` up to 230.
+    Free,
+}
 
 /// What is found on one side.
 #[derive(Clone, Copy)]
@@ -89,7 +110,7 @@ impl<const N: usize, M: TwoPolarForm<N>> Motion<'_, N, M> {
     fn side(&self, mut q: f64, way: f64) -> (Side, bool) {
         let (mut here, mut step, mut flat) = (self.kinetic, LONGEST, true);
         for _ in 0..MOST_STEPS {
-            if q.abs() >= FARTHEST {
+            if way * q >= FARTHEST {
                 return (Side::Open, flat);
             }
             let next = q + way * step;

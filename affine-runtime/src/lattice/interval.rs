@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn functions_are_enclosed() {
-        assert_functions! { sqrt cbrt inverse_cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asinh abs signum }
+        assert_functions! { sqrt cbrt inverse_cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asinh abs }
     }
 
     #[test]
@@ -290,7 +290,8 @@ mod tests {
                 assert!((a / b).contains(x / y) || y == 0.0, "{a:?} over {b:?}: {x} over {y}");
                 assert!(Scalar::max(a, b).contains(Scalar::max(x, y)));
                 assert!(a.copysign(b).contains(x.copysign(y)) && a.hypot(b).contains(x.hypot(y)));
-                assert!(!(a < b && x >= y) && !(a > b && x <= y));
+                let is_told = a.partial_cmp(&b).is_some();
+                assert!(!is_told || a.partial_cmp(&b) == x.partial_cmp(&y), "{a:?} and {b:?}");
             }
         }
     }
