@@ -14,9 +14,9 @@ use crate::scalar::Real;
 /// How far turning points of the dilatation are looked for: beyond it `det phi` leaves the range of doubles.
 const FARTHEST: f64 = 230.0;
 /// The longest step: intervals are wider than what they enclose by its square.
-const LONGEST: f64 = 0.25;
+const LONGEST: f64 = 1.0;
 /// Steps on one side, at most: a hundred times those over a smooth potential.
-const MOST_STEPS: u32 = 1 << 17;
+const MOST_STEPS: u32 = 1 << 15;
 
 /// What becomes of the dilatation.
 #[derive(Clone, Copy, Debug, PartialEq)]
