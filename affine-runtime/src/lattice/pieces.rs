@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::{Lattice, LatticeForm, LatticeStop, MetricSide, StopReason, Variables};
 use crate::decompose::LinearMap;
-use crate::error::{Error, Setting};
+use crate::error::Error;
 use crate::frames::Matrix;
 use crate::inner::accumulate;
 use crate::integrate::Failure;
@@ -123,7 +123,7 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
     /// `ceil(|t_end - t0|/step)` steps of the method of order 2, 4, 6 or 8; `None` for other orders.
     ///
     /// # Errors
-    /// [`StopReason::Coincidence`] where two stretches are equal; [`StopReason::Setting`] where `step` is not positive, not finite,
+    /// [`StopReason::Coincidence`] where two stretches are equal; [`StopReason::Step`] where `step` is not positive, not finite,
     /// or smaller than floating-point times tell apart; [`StopReason::Integration`] where a time or the state is not finite.
     pub fn new(
         model: &'a M,
@@ -155,7 +155,7 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
         let begun = steps.map(|steps| Self { steps, couplings, sorting, whirl, t0, stop: None });
         let begun = if step.is_finite() { begun } else { Err(Failure::StepUnderflow) };
         Some(begun.map_err(|failure| match failure {
-            Failure::StepUnderflow => stop(StopReason::Setting(Setting::Step { given: step, t0, t_end })),
+            Failure::StepUnderflow => stop(StopReason::Step { given: step }),
             other => stop(StopReason::Integration(other)),
         }))
     }
