@@ -16,13 +16,16 @@
 
 mod circle;
 mod classify;
+mod confinement;
 pub(crate) mod conversion;
 mod flow;
+mod interval;
 pub(crate) mod pieces;
 mod ratios;
 
 pub use circle::CircleFlow;
-pub use classify::{Dilatation, Growth, MotionClass};
+pub use classify::{Growth, MotionClass};
+pub use confinement::Dilatation;
 pub(crate) use conversion::{lattice_of, placement_and_spin};
 pub use flow::{LatticeFlow, LatticeStop, StopReason};
 pub use pieces::{LatticePieces, LatticeSplitting};

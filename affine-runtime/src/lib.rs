@@ -143,6 +143,7 @@ pub mod capability {
 
 /// What of the other crates is for this one alone.
 mod inner {
+    pub(crate) use affine_core::__private::far_from_undeformed;
     pub(crate) use affine_core::__private::numerics::*;
     #[cfg(feature = "analysis")]
     pub(crate) use affine_core::__private::projected;

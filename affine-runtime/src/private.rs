@@ -5,7 +5,7 @@ pub use affine_integrators::__private::*;
 
 pub use crate::dual::Dual;
 pub use crate::elliptic::ellipsoid::{ellipsoidal, ellipsoidal_slopes};
-pub use crate::lattice::conversion::LatticeFrame;
+pub use crate::lattice::conversion::{LatticeFrame, far_on_axes};
 pub use crate::lattice::pieces::{rotation, turned};
 pub use crate::lattice::{
     Isotropic, Lattice, LatticeDescription, LatticeForm, LatticePieces, MetricSide, PotentialClass,

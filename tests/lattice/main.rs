@@ -3,6 +3,8 @@
 
 mod classification;
 mod closed_form;
+mod confinement;
+mod far_away;
 #[allow(
     dead_code,
     reason = "every model has constructors for momenta and for velocities; not all are called"

@@ -4,7 +4,9 @@ use super::{Lattice, LatticeForm, Variables};
 use crate::decompose::TwoPolar;
 use crate::error::{Error, Result};
 use crate::frames::{Body, Canonical, Frame, Matrix, Space, Vector};
+use crate::inner::far_from_undeformed;
 use crate::model::StateVector;
+use crate::scalar::Real;
 
 /// The affine spin of a frame on the principal axes: `Y = L^T Sigma L`, `R^T Sigma_hat R` or `R^T Pi L`, which are
 /// `D^s Z D^-s` with `s` = 1/2, -1/2, and `D^(-1/2) Z D^(-1/2)`.
@@ -154,6 +156,14 @@ impl<const N: usize> Lattice<N> {
             right,
         }
     }
+}
+
+/// Is the placement of such a state [far from the undeformed one](far_from_undeformed)?
+pub fn far_on_axes<const N: usize, M: LatticeForm<N>, T: Real>(state: &M::Places<T>) -> bool {
+    let places = state.as_ref();
+    let plain = M::LATTICE.variables == Variables::Stretches;
+    let stretches = Vector::<N, T>::from_fn(|a, _| if plain { places[a] } else { places[a].exp() });
+    far_from_undeformed(&Matrix::from_diagonal(&stretches))
 }
 
 /// Up to three entries and their number.

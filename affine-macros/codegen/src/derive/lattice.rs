@@ -11,6 +11,7 @@ use crate::algebra::{Arena, Expr, Polynomial, Rational};
 use crate::ir::Program;
 use crate::mechanics::describe::{Formula, Notation};
 use crate::mechanics::hamiltonian::Hamiltonian;
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::potential::{OnAxes, Potential};
 use crate::mechanics::two_polar::{self, Equations, Frames, Lattice, Pieces, Ratios, Stable, Variables};
 use crate::optimise::Batch;
@@ -32,6 +33,8 @@ pub struct TwoPolar {
     pub framed: Program,
     /// State -> `H`.
     pub energy: Program,
+    /// The same far from the undeformed state, where that differs.
+    pub energy_far_away: Option<Program>,
     /// `H` and the equations.
     pub formulas: (Formula, Vec<Formula>),
     /// Does the potential depend on `q = ln(det phi)/n` alone?
@@ -85,7 +88,9 @@ pub(super) fn two_polar(
         |arena: &mut Arena, batch: &Batch| super::batch::program(arena, batch, coefficients, &inputs);
     let rates = rates(arena, &lattice, &equations, &stable, on_axes.as_ref());
     let framed = framed(arena, &frames, &equations, &stable, rates.clone());
-    let energy = energy(&equations, &stable, on_axes.as_ref());
+    let near = energy(&equations, &stable, on_axes.as_ref().map(|u| &u.energy));
+    let far_away = on_axes.as_ref().and_then(|u| u.energy_far_away.as_ref());
+    let far_away = far_away.map(|value| energy(&equations, &stable, Some(value)));
     let ratios = match asked.has(Capability::Ratios) {
         true => Ratios::of(arena, &lattice, h).map(|form| RatioProgram::of(arena, &form)),
         false => None,
@@ -100,7 +105,8 @@ pub(super) fn two_polar(
         couplings,
         rates: program(arena, &rates),
         framed: program(arena, &framed),
-        energy: program(arena, &energy),
+        energy: program(arena, &near),
+        energy_far_away: far_away.map(|batch| program(arena, &batch)),
         frames: groups(arena, &frames),
         state,
         formulas,
@@ -127,12 +133,13 @@ fn rates(
     Batch { shared, results: equations.rates.iter().take(moving).map(rate).collect(), ..Batch::default() }
 }
 
-fn energy(equations: &Equations, stable: &Stable, potential: Option<&OnAxes>) -> Batch {
+/// `H` from the value of the potential and what that shares.
+fn energy(equations: &Equations, stable: &Stable, potential: Option<&(Polynomial, Definitions)>) -> Batch {
     let mut shared = stable.shared.clone();
     let mut energy = stable.rewritten(&equations.kinetic);
-    if let Some(potential) = potential {
-        shared.extend(potential.energy_shared.iter().cloned());
-        energy.add_scaled(&potential.energy, &Rational::ONE);
+    if let Some((value, its_shared)) = potential {
+        shared.extend(its_shared.iter().cloned());
+        energy.add_scaled(value, &Rational::ONE);
     }
     Batch { shared, results: vec![(Quantity::Energy.into(), energy)], ..Batch::default() }
 }

@@ -140,7 +140,7 @@ written! {
     Bases { space, body; }
     Factor { matrix, inverse; axes }
     GivenMatrix { source; number }
-    TwoPolar { rates, framed, energy, pieces, ratios; places, state, frames, couplings, formulas, dilatation_only }
+    TwoPolar { rates, framed, energy, energy_far_away, pieces, ratios; places, state, frames, couplings, formulas, dilatation_only }
     PiecePrograms { list; nystrom }
     PieceProgram { program; name, shifted, turned }
     RatioProgram { program; state, couplings }

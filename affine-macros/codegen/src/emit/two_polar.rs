@@ -52,8 +52,19 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
     };
     let (rates, Body { results: rate_results, .. }) = function(&form.rates, &state);
     let (framed_rates, Body { results: framed_results, .. }) = function(&form.framed, &framed);
-    let (energy, body) = function(&form.energy, &state);
-    let energy_result = body.result();
+    let energy = |program: &Program| {
+        let (lets, body) = function(program, &state);
+        let value = body.result();
+        quote!(#lets #value)
+    };
+    let near = energy(&form.energy);
+    let energy = match &form.energy_far_away {
+        None => near,
+        Some(program) => {
+            let (far_away, n) = (energy(program), context.dim());
+            quote!(if #rt::far_on_axes::<#n, Self, #t>(state) { #far_away } else { #near })
+        }
+    };
     let (_, couplings) = held(&form.couplings, &[], "couplings");
     let pieces = pieces::implementation(context, form, &framed);
     let items = quote! {
@@ -68,7 +79,6 @@ fn lattice(context: &Context, form: &TwoPolar) -> TokenStream {
             state: &Self::Places<#t>,
         ) -> #t {
             #energy
-            #energy_result
         }
 
         #[inline]

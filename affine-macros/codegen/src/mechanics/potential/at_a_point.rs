@@ -43,30 +43,38 @@ impl Potential {
     /// [`energy_at_a_point`](Self::energy_at_a_point) is as good there: it is not with exponentials of logarithms, nor with
     /// logarithms that `q` is the opposite of.
     pub fn energy_far_away(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Definitions)> {
+        let (value, sums) = self.far_away(arena, self.energy)?;
+        let d = arena.symbol(Quantity::Dilatation);
+        let inverse = arena.pow(d, -1)?;
+        let mut shared = scaled::definitions(arena, chart, inverse);
+        shared.extend(sums);
+        Some((value, shared))
+    }
+
+    /// A form of the energy through `D` and functions of `Psi`, `phi = D Psi`, and the sums that it shares; `None` where what is
+    /// counted from the undeformed state is as good far from it.
+    pub(super) fn far_away(&self, arena: &mut Arena, energy: Expr) -> Option<(Polynomial, Definitions)> {
         let q = Base::MeanLogStretch.symbol(arena);
         let exponential =
             |function, of: Expr| function == Function::Exp && multiple_of_logarithm(arena, of).is_some();
         let logarithm = |function, _| function == Function::Ln;
-        let differs = applies(arena, self.energy, &exponential)
-            || applies(arena, self.energy, &logarithm)
-                && arena.any_symbol(self.energy, &mut |symbol| symbol == q);
+        let differs = applies(arena, energy, &exponential)
+            || applies(arena, energy, &logarithm) && arena.any_symbol(energy, &mut |symbol| symbol == q);
         if !differs {
             return None;
         }
         let d = arena.symbol(Quantity::Dilatation);
-        let energy = exponential_of_dilatation(arena, self.energy);
+        let energy = exponential_of_dilatation(arena, energy);
         let scaled = scaled_bases(arena, self.dim, d);
         let energy = arena.substitute(energy, &listed(&scaled))?;
-        let inverse = arena.pow(d, -1)?;
-        let mut shared = scaled::definitions(arena, chart, inverse);
         let mut sums = Sums::default();
         let named = sums.named(arena, energy);
         // A power of `D` in a sum may have to cancel one beside it.
         let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
         if scaled && Sizes::default().of(arena, energy) <= MOST_TERMS {
-            return Some((collected(arena, energy, d), shared));
+            return Some((collected(arena, energy, d), Definitions::new()));
         }
-        shared.extend(sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))));
+        let shared = sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))).collect();
         Some((collected(arena, named, d), shared))
     }
 

@@ -20,10 +20,10 @@ pub struct OnAxes {
     pub shared: Definitions,
     /// `-dU/dq_a` or `-dU/dQ_a`.
     pub forces: Vec<Polynomial>,
-    /// `U`, counted from the undeformed state.
-    pub energy: Polynomial,
-    /// What the energy shares.
-    pub energy_shared: Definitions,
+    /// `U`, counted from the undeformed state, with what it shares.
+    pub energy: (Polynomial, Definitions),
+    /// The same for places far from it, where that differs.
+    pub energy_far_away: Option<(Polynomial, Definitions)>,
 }
 
 impl Potential {
@@ -56,8 +56,8 @@ impl Potential {
         let mut axes = OnAxes {
             shared: Vec::new(),
             forces: vec![Polynomial::zero(); self.dim],
-            energy: Polynomial::zero(),
-            energy_shared: Vec::new(),
+            energy: (Polynomial::zero(), Vec::new()),
+            energy_far_away: None,
         };
         let mut sums = Sums::of_slopes();
         for (base, slope) in &self.slopes {
@@ -79,15 +79,24 @@ impl Potential {
         axes.shared.extend(sums.forms(arena));
         let definitions = definitions(arena, lattice, &stretches);
         axes.shared.extend(definitions.iter().cloned());
-        let energy = diagonal(arena, self.energy);
-        let energy = about_undeformed(arena, energy);
-        let counted = counted_from_undeformed(arena, lattice, &mut axes.energy_shared);
+        let written = diagonal(arena, self.energy);
+        let energy = about_undeformed(arena, written);
+        let mut shared = Vec::new();
+        let counted = counted_from_undeformed(arena, lattice, &mut shared);
         let mut sums = Sums::default();
         let energy = sums.named(arena, energy);
-        axes.energy = Polynomial::normal_form(arena, energy).substitute(&listed(&counted));
+        let energy = Polynomial::normal_form(arena, energy).substitute(&listed(&counted));
         let forms = sums.forms(arena).into_iter();
-        axes.energy_shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&counted)))));
-        axes.energy_shared.extend(definitions);
+        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&counted)))));
+        shared.extend(definitions.iter().cloned());
+        axes.energy = (energy, shared);
+        // Angles have no volume to be far away by.
+        let is_on_line = lattice.variables != Variables::Angles;
+        let far_away = if is_on_line { self.far_away(arena, written) } else { None };
+        axes.energy_far_away = far_away.map(|(value, sums)| {
+            let unit = unit_definitions(arena, &stretches);
+            (value, [unit, sums, definitions].concat())
+        });
         axes
     }
 }
@@ -151,7 +160,7 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Defi
         }
         list.push((Base::Placement(a, a).symbol(arena), Polynomial::atom(*stretch)));
     }
-    list.extend(traces(arena, &squares));
+    list.extend(traces(arena, Base::symbol, &squares));
     let [q, d, inverse_d] =
         arena.symbols([Quantity::MeanLogStretch, Quantity::Dilatation, Quantity::InverseDilatation]);
     match lattice.variables {
@@ -179,6 +188,23 @@ fn definitions(arena: &mut Arena, lattice: &Lattice, stretches: &[Expr]) -> Defi
             }
         }
     }
+    list
+}
+
+/// `Psi`, `phi = D Psi`, its tensors and traces.
+fn unit_definitions(arena: &mut Arena, stretches: &[Expr]) -> Definitions {
+    let d = arena.symbol(Quantity::Dilatation);
+    // A symbol is not the number zero.
+    let inverse = arena.reciprocal(d);
+    let (mut list, mut squares) = (Vec::new(), Vec::new());
+    for (a, stretch) in stretches.iter().enumerate() {
+        let unit = Base::Placement(a, a).unit(arena);
+        list.push((unit, Polynomial::monomial([inverse, *stretch])));
+        let square = Polynomial::monomial([unit, unit]);
+        list.extend([Base::Green(a, a), Base::Finger(a, a)].map(|base| (base.unit(arena), square.clone())));
+        squares.push(square);
+    }
+    list.extend(traces(arena, Base::unit, &squares));
     list
 }
 
@@ -210,16 +236,16 @@ fn counted_from_undeformed(arena: &mut Arena, lattice: &Lattice, shared: &mut De
         }
         squares.push(square);
     }
-    list.extend(traces(arena, &squares));
+    list.extend(traces(arena, Base::symbol, &squares));
     list
 }
 
-/// `tr G^k`, the sums of powers of these `Q_a^2`.
-fn traces(arena: &mut Arena, squares: &[Polynomial]) -> Definitions {
+/// `tr G^k`, the sums of powers of these `Q_a^2`, by their names.
+fn traces(arena: &mut Arena, name: fn(Base, &mut Arena) -> Expr, squares: &[Polynomial]) -> Definitions {
     let mut powers = vec![Polynomial::constant(Rational::ONE); squares.len()];
     let mut trace = |base: Base| {
         powers.iter_mut().zip(squares).for_each(|(power, square)| *power = power.mul(square));
-        (base.symbol(arena), powers.iter().sum())
+        (name(base, arena), powers.iter().sum())
     };
     Base::TRACES.map(&mut trace).into()
 }
