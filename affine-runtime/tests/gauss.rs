@@ -295,7 +295,7 @@ fn what_is_not_finite_and_steps_that_make_no_sense_are_refused() {
     let new = |y: f64, step: f64| Gauss::new(edge, &Tableau::TWO, (0.0, [y]), 3.0, step).map(|run| run.t());
     assert_eq!(new(f64::NAN, 0.1), Err(Failure::NotFinite));
     for step in [0.0, -0.1, f64::NAN, 1e-17] {
-        assert_eq!(new(0.0, step), Err(Failure::StepUnderflow), "{step}");
+        assert!(matches!(new(0.0, step), Err(Failure::Step { t_end: 3.0, .. })), "{step}");
     }
     assert_eq!(Tableau::of_stages(5), None);
 }

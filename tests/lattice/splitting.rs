@@ -282,7 +282,10 @@ fn what_cannot_begin_is_refused() {
     let refused = |lattice: Lattice<3>, step: f64| {
         LatticeSplitting::new(&Body, 4, (0.0, lattice), 1.0, step).unwrap().unwrap_err().reason
     };
-    assert_eq!(refused(start(), 0.0), StopReason::Integration(Failure::StepUnderflow));
+    assert_eq!(
+        refused(start(), 0.0),
+        StopReason::Integration(Failure::Step { given: 0.0, t0: 0.0, t_end: 1.0 })
+    );
     let mut lattice = start::<3>();
     lattice.q[1] = lattice.q[0];
     assert_eq!(refused(lattice, 0.1), StopReason::Coincidence { distance: 0.0 });

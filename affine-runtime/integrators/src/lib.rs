@@ -106,6 +106,15 @@ pub enum Failure {
         /// Its value.
         given: f64,
     },
+    /// The length of equal steps is not positive, not finite, or lost in the rounding of times.
+    Step {
+        /// Its value.
+        given: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
 }
 
 /// An interval that steps come to the end of, and a tolerance that they can be held against.
@@ -142,6 +151,10 @@ impl fmt::Display for Failure {
             Failure::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, a positive number; 1e-6 to 1e-13 are common"
+            ),
+            Failure::Step { given, t0, t_end } => write!(
+                f,
+                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of times"
             ),
         }
     }

@@ -123,7 +123,7 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
     ///
     /// # Errors
     /// [`StopReason::Coincidence`] where two stretches are equal; [`StopReason::Integration`] where the state is not finite,
-    /// `step` not positive, or smaller than floating-point times tell apart.
+    /// `step` not positive, not finite, or smaller than floating-point times tell apart.
     pub fn new(
         model: &'a M,
         order: usize,
