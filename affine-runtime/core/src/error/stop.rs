@@ -34,6 +34,7 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
+        #[cfg_attr(feature = "serde", serde(default, with = "crate::interned::number"))]
         rate: Option<f64>,
         /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
         /// that of the dense output of the step in which it lies; the time of a start that is bad.
@@ -320,6 +321,7 @@ impl std::error::Error for Stop {}
 struct Written {
     reason: String,
     cause: Reason,
+    #[serde(with = "crate::interned::number")]
     t: f64,
     steps: u64,
 }
