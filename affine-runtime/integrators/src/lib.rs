@@ -85,7 +85,7 @@ pub enum Failure {
     StepUnderflow,
     /// The equations of one of equal steps have no solution, or none that the iteration finds: the step is too long.
     NoSolution {
-        /// The least defect met, relative to the largest component of the state.
+        /// The defect with which the iteration ended, relative to the largest component of the state and its increments.
         residual: f64,
     },
     /// The velocities are not linear in the momenta, or depend on the placement, or the state is not canonical: the

@@ -137,7 +137,7 @@ pub enum Reason {
     },
     /// The equations of an implicit step have no solution, or none that the iteration finds.
     NoSolution {
-        /// The least defect met, relative to the largest component of the reduced state.
+        /// The defect with which the iteration ended, relative to the largest component of the reduced state and its increments.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         residual: f64,
         /// The longest step allowed.
