@@ -186,7 +186,8 @@ pub fn latin_hypercube<R: Rng + ?Sized>(rng: &mut R, count: usize, bounds: &[(f6
         }
         for (place, part) in places.iter_mut().zip(parts) {
             let within = (part as f64 + rng.random::<f64>()) / count as f64;
-            place.push(low + (high - low) * within);
+            // By halves: the length of a side may be out of the range of numbers.
+            place.push(2.0 * (0.5 * low + (0.5 * high - 0.5 * low) * within));
         }
     }
     places

@@ -15,3 +15,4 @@ mod starts;
 mod sweeps;
 mod tables;
 mod watched;
+mod written_numbers;

@@ -141,7 +141,8 @@ fn what_is_killed_is_continued_with_the_same_bytes() {
 fn a_folder_of_another_run_is_refused() {
     let folder = Folder::new("refused");
     save(ensemble().shard(0, 9), &folder.0).unwrap();
-    for other in [ensemble(), ensemble().shard(1, 9), ensemble().shard(0, 9).until(0.7)] {
+    let shard = || ensemble().shard(0, 9);
+    for other in [ensemble(), ensemble().shard(1, 9), shard().until(0.7), shard().numbers(0..9)] {
         let refused = save(other, &folder.0).unwrap_err();
         assert_eq!(refused, Error::from(Setting::Checkpoint { model: "Unprotected" }));
     }
@@ -149,6 +150,21 @@ fn a_folder_of_another_run_is_refused() {
     fs::write(&file.0, "no folder").unwrap();
     assert!(matches!(save(ensemble(), &file.0), Err(Error::File { .. })));
     fs::remove_file(&file.0).unwrap();
+}
+
+/// A look at two bodies is no beginning of a run of all of them.
+#[test]
+fn a_folder_of_other_numbers_is_refused() {
+    let folder = Folder::new("numbers");
+    let some = || ensemble().numbers(6..8);
+    save(some(), &folder.0).unwrap();
+    let files = folder.files();
+    for other in [ensemble(), ensemble().numbers(6..9), some().shard(0, 1), some().numbers(6..7)] {
+        let refused = save(other, &folder.0).unwrap_err();
+        assert_eq!(refused, Error::from(Setting::Checkpoint { model: "Unprotected" }));
+    }
+    save(some(), &folder.0).unwrap();
+    assert_eq!(folder.files(), files);
 }
 
 /// A body whose run an event ends is written where and when it ended, alone or in lanes.

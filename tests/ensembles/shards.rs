@@ -51,6 +51,8 @@ fn a_body_is_run_again_from_its_number() {
     let rest = seen(|ensemble| ensemble.shard(1, 2).numbers(20..u64::MAX));
     let expected: Seen = whole.into_iter().filter(|body| body.number % 2 == 1 && body.number >= 20).collect();
     assert_eq!(rest, expected, "what a shard had left");
+    let sixths = seen(|ensemble| ensemble.shard(1, 2).shard(2, 3));
+    assert!(sixths.iter().map(|body| body.number).eq((0..BODIES as u64).filter(|k| k % 6 == 5)));
 }
 
 /// Neither chunks nor threads: more bodies than are there at once, in pools of one thread and of three.

@@ -154,12 +154,12 @@ fn starts_of_a_level_of_momentum_are_spread_evenly() {
 
 #[test]
 fn every_part_of_every_side_has_one_place() {
-    let bounds = [(0.0, 1.0), (-3.0, 5.0), (10.0, 10.5)];
+    let bounds = [(0.0, 1.0), (-3.0, 5.0), (10.0, 10.5), (-1e308, 1e308), (f64::MAX, -f64::MAX)];
     let places = latin_hypercube(&mut random(), 40, &bounds);
     assert_eq!(places.len(), 40);
     for (side, (low, high)) in bounds.iter().enumerate() {
-        let mut parts: Vec<usize> =
-            places.iter().map(|place| (40.0 * (place[side] - low) / (high - low)) as usize).collect();
+        let part = |number: f64| 40.0 * ((0.5 * number - 0.5 * low) / (0.5 * high - 0.5 * low));
+        let mut parts: Vec<usize> = places.iter().map(|place| part(place[side]) as usize).collect();
         assert_ne!(parts, (0..40).collect::<Vec<_>>(), "not in order");
         parts.sort_unstable();
         assert_eq!(parts, (0..40).collect::<Vec<_>>());

@@ -164,6 +164,8 @@ fn settings_are_looked_at_first() {
     ));
     assert_eq!(refused(ensemble().shard(2, 2)), Setting::Shard { k: 2, of: 2 });
     assert_eq!(refused(ensemble().shard(0, 0)), Setting::Shard { k: 0, of: 0 });
+    // Whatever is chosen of it.
+    assert_eq!(refused(ensemble().shard(5, 2).shard(0, 1)), Setting::Shard { k: 5, of: 2 });
     let nan = || {
         vec![Event::new("nan", |t, point: &Point| if t > 0.3 { f64::NAN } else { point.phi()[(0, 0)] + 9.0 })]
     };

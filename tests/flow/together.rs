@@ -98,6 +98,9 @@ fn points_and_models_change_between_frames() {
             };
             flows.set_point(frame, bounced).unwrap();
             alone[frame].set_point(bounced).unwrap();
+            let none = block(1.0).unflatten(&[f64::NAN; 24]);
+            let stop = flows.set_point(frame, none).unwrap_err();
+            assert!(stop == alone[frame].set_point(none).unwrap_err() && stop.steps > 0, "{stop}");
             let next = 8 - frame;
             flows.set_model(next, Owned(block(-1.0))).unwrap();
             alone[next].set_model(Owned(block(-1.0)));

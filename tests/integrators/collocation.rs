@@ -1,7 +1,7 @@
 //! Gauss collocation where rounding is all that is left of the equations of a step: momenta that friction has taken away, and
 //! forces of contact whose derivative jumps.
 
-use affine_runtime::force::{Force, Motion, Translation};
+use affine_runtime::force::{AtPoint, Force, Motion, PointForce, Translation};
 use affine_runtime::frames::Space as OnSpace;
 use affine_runtime::frames::Vector;
 use affine_runtime::prelude::*;
@@ -308,5 +308,52 @@ fn a_kink_of_a_force_within_a_step_is_no_failure() {
         let run = run.unwrap_or_else(|halt| panic!("{stages} stages, frame {frame}: {halt}"));
         assert_eq!(run.statistics().steps, 1);
         assert!(run.computation().residual.unwrap() < SOLVED, "{}", run.why());
+    }
+}
+
+/// A ground that presses with 300 times the depth, and rubs by the depth.
+#[derive(Clone, Copy, Debug)]
+struct Rubbing;
+
+impl PointForce<2> for Rubbing {
+    fn force<T: Scalar>(&self, _: T, x: &Vector<2, T>, v: &Vector<2, T>) -> Vector<2, T> {
+        let depth = (-x[1]).max(T::zero());
+        Vector::<2, T>::new(-(depth * v[0]), T::constant(300.0, 0.0) * depth)
+    }
+}
+
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 0.1, space_translation = 1),
+    potential = orthogonality(30) + 9.81*x[2],
+    forces = custom(press, translation) + custom(turn, spatial)
+)]
+struct Trolley {
+    press: AtPoint<2, Rubbing, Translation, 2>,
+    turn: AtPoint<2, Rubbing, OnSpace, 2>,
+}
+
+/// Where a foot has left the ground at one stage and not half-way through the step, its work at that stage falls by a constant
+/// factor in each correction, down to 1e-216 and on: that is no way still to go.
+#[test]
+fn a_stage_without_contact_is_solved() {
+    let feet = [[-1.0, -0.5], [1.0, -0.5]];
+    let model = Trolley { press: AtPoint::new(feet, Rubbing), turn: AtPoint::new(feet, Rubbing) };
+    let model = model.prepare().unwrap();
+    let (x, v) = (Vector::<2>::new(0.0, 0.8), Vector::<2>::new(1.0, -0.3));
+    let (phi, phi_dot) = (Matrix::<2>::new(1.0, 0.1, -0.1, 1.0), Matrix::<2>::new(0.0, -0.4, 0.4, 0.1));
+    let simulation = || {
+        let start = model.at_velocity(x, phi, v, phi_dot).unwrap();
+        Simulation::new(&model, start).until(3.0).output([3.0])
+    };
+    let exact = simulation().method(Method::RungeKutta8).tolerance(1e-10).run().unwrap();
+    for step in [0.02, 0.01] {
+        for stages in [2, 3, 4, 6] {
+            let run = simulation().method(Method::Gauss { stages, step }).run();
+            let run = run.unwrap_or_else(|halt| panic!("{stages} stages, steps of {step}: {halt}"));
+            assert!(run.computation().residual.unwrap() < SOLVED, "{}", run.why());
+            let error = (run.end().1.phi() - exact.end().1.phi()).norm();
+            assert!(error < 12.0 * step, "{stages} stages, steps of {step}: phi errs by {error:e}");
+        }
     }
 }

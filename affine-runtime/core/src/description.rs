@@ -156,7 +156,7 @@ pub struct Formula {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
     pub text: Word,
     /// LaTeX, without delimiters; of models with `emit(latex)`, and of all where `affine_runtime` has the feature `report`.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::optional_word"))]
+    #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::interned::optional_word"))]
     pub latex: Option<Word>,
 }
 

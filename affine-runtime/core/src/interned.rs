@@ -2,14 +2,14 @@
 //! what is read has the type of what is written.
 
 #[cfg(feature = "serde")]
-pub use reading::{constant, number, word};
+pub use reading::{constant, number, optional_word, word};
 #[cfg(feature = "serde")]
-pub(crate) use reading::{list, optional_word, words};
+pub(crate) use reading::{list, words};
 
 #[cfg(feature = "serde")]
 mod reading {
     use core::any::Any;
-    use core::fmt::{self, Display};
+    use core::fmt;
     use std::sync::{Mutex, PoisonError};
 
     use serde::de::{DeserializeOwned, Error, Visitor};
@@ -41,7 +41,7 @@ mod reading {
     ///
     /// # Errors
     /// Those of the deserializer.
-    pub(crate) fn optional_word<'de, D: Deserializer<'de>>(
+    pub fn optional_word<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Option<&'static str>, D::Error> {
         let text: Option<String> = Option::deserialize(deserializer)?;
@@ -80,36 +80,141 @@ mod reading {
         T::deserialize(deserializer).map(|value| kept(Box::new(value)))
     }
 
-    /// Numbers that may not be finite, for which text formats have no number of their own: `"NaN"`, `"inf"`, `"-inf"`.
+    /// Numbers that may not be finite, for which text formats have no number of their own: `"NaN"`, `"inf"`, `"-inf"`, and a NaN of
+    /// other bits than [`f64::NAN`] with its bits, `"NaN(0xfff8000000000000)"`. Lists of them likewise, and pairs with something else.
     pub mod number {
-        use super::{Deserializer, Display, Error, Visitor, fmt};
-        use serde::Serializer;
+        use super::{Deserializer, Error, Visitor, fmt, word};
+        use crate::quantity::Word;
+        use serde::{Deserialize, Serialize, Serializer};
 
-        /// Writes a number.
+        /// What is written as its numbers are.
+        pub trait Write {
+            /// Writes it.
+            ///
+            /// # Errors
+            /// Those of the serializer.
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
+        }
+
+        /// What is read as its numbers are.
+        pub trait Read<'de>: Sized {
+            /// Reads it.
+            ///
+            /// # Errors
+            /// Those of the deserializer; where what stands there is no number.
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
+        }
+
+        /// A number, or some, in what is written and read.
+        pub struct Number<T>(pub T);
+
+        impl<T: Write> Serialize for Number<&T> {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.0.write(serializer)
+            }
+        }
+
+        impl<'de, T: Read<'de>> Deserialize<'de> for Number<T> {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                T::read(deserializer).map(Self)
+            }
+        }
+
+        /// Writes a number, or some.
         ///
         /// # Errors
         /// Those of the serializer.
-        pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-            match number.is_finite() || !serializer.is_human_readable() {
-                true => serializer.serialize_f64(*number),
-                false => serializer.collect_str(number as &dyn Display),
-            }
+        pub fn serialize<T: Write, S: Serializer>(numbers: &T, serializer: S) -> Result<S::Ok, S::Error> {
+            numbers.write(serializer)
         }
 
-        /// Reads a number.
+        /// Reads a number, or some.
         ///
         /// # Errors
         /// Those of the deserializer; where what stands there is no number.
-        pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-            match deserializer.is_human_readable() {
-                true => deserializer.deserialize_any(Number),
-                false => deserializer.deserialize_f64(Number),
+        pub fn deserialize<'de, T: Read<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+            T::read(deserializer)
+        }
+
+        impl Write for f64 {
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let bits = self.to_bits();
+                if self.is_finite() || !serializer.is_human_readable() {
+                    serializer.serialize_f64(*self)
+                } else if self.is_nan() && bits != Self::NAN.to_bits() {
+                    serializer.collect_str(&format_args!("NaN({bits:#x})"))
+                } else {
+                    serializer.collect_str(&format_args!("{self}"))
+                }
             }
         }
 
-        struct Number;
+        impl<'de> Read<'de> for f64 {
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                match deserializer.is_human_readable() {
+                    true => deserializer.deserialize_any(OneNumber),
+                    false => deserializer.deserialize_f64(OneNumber),
+                }
+            }
+        }
 
-        impl Visitor<'_> for Number {
+        impl<T: Write> Write for Option<T> {
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.as_ref().map(Number).serialize(serializer)
+            }
+        }
+
+        impl<'de, T: Read<'de>> Read<'de> for Option<T> {
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                Option::deserialize(deserializer)
+                    .map(|number: Option<Number<T>>| number.map(|Number(own)| own))
+            }
+        }
+
+        impl<T: Write> Write for Vec<T> {
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_seq(self.iter().map(Number))
+            }
+        }
+
+        impl<'de, T: Read<'de>> Read<'de> for Vec<T> {
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let numbers: Vec<Number<T>> = Vec::deserialize(deserializer)?;
+                Ok(numbers.into_iter().map(|Number(own)| own).collect())
+            }
+        }
+
+        /// A time with what is there.
+        impl<P: Serialize> Write for (f64, P) {
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                (Number(&self.0), &self.1).serialize(serializer)
+            }
+        }
+
+        impl<'de, P: Deserialize<'de>> Read<'de> for (f64, P) {
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                Deserialize::deserialize(deserializer).map(|(Number(t), there)| (t, there))
+            }
+        }
+
+        /// A text with its number.
+        impl Write for (Word, f64) {
+            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                (self.0, Number(&self.1)).serialize(serializer)
+            }
+        }
+
+        impl<'de> Read<'de> for (Word, f64) {
+            fn read<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                #[derive(Deserialize)]
+                struct Text(#[serde(deserialize_with = "word")] Word);
+                Deserialize::deserialize(deserializer).map(|(Text(text), Number(number))| (text, number))
+            }
+        }
+
+        struct OneNumber;
+
+        impl Visitor<'_> for OneNumber {
             type Value = f64;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -125,7 +230,10 @@ mod reading {
                 Ok(number as f64)
             }
             fn visit_str<E: Error>(self, text: &str) -> Result<f64, E> {
-                text.parse().map_err(E::custom)
+                match text.strip_prefix("NaN(0x").and_then(|bits| bits.strip_suffix(')')) {
+                    Some(bits) => u64::from_str_radix(bits, 16).map(f64::from_bits).map_err(E::custom),
+                    None => text.parse().map_err(E::custom),
+                }
             }
         }
     }

@@ -104,7 +104,7 @@ pub mod numerics {
     pub use crate::divisor::{Divisor, HIGHEST_ORDER, LOWEST_ORDER};
     pub use crate::elliptic::{carlson_rf, duplicated};
     #[cfg(feature = "serde")]
-    pub use crate::interned::{constant, number, word};
+    pub use crate::interned::{constant, number, optional_word, word};
     pub use crate::kinematics::dilatation::LogDeterminant;
     pub use crate::norm::{IN_RANGE, larger, norm, scaled_norm, square, sum_of_squares};
     pub use crate::reduction::jacobi;

@@ -288,7 +288,7 @@ impl<M: EqualStepMethod> Equal<M> {
     /// Goes on to another end of the interval.
     ///
     /// # Errors
-    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
+    /// [`Failure::Time`], [`Failure::Step`] where there are no steps to it; the end stays what it was.
     #[doc(hidden)]
     pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
         self.steps.aim(t_end)

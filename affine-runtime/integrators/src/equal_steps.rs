@@ -22,13 +22,14 @@ pub(super) struct Times {
 
 impl Times {
     /// # Errors
-    /// [`Failure::Time`] where one of the times is not finite; [`Failure::StepUnderflow`] where `step` is not positive, or
+    /// [`Failure::Time`] where one of the times is not finite; [`Failure::Step`] where `step` is not positive or not finite, or
     /// gives more steps than there are floating-point times.
     pub(super) fn new(t0: f64, t_end: f64, step: f64) -> Result<Self, Failure> {
         if let Some(given) = [t0, t_end].into_iter().find(|t| !t.is_finite()) {
             return Err(Failure::Time { given });
         }
-        let count = step_count(t0, t_end, step).ok_or(Failure::StepUnderflow)?;
+        let count = step_count(t0, t_end, step).filter(|_| step.is_finite());
+        let count = count.ok_or(Failure::Step { given: step, t0, t_end })?;
         let h = if count == 0 { 0.0 } else { (t_end - t0) / count as f64 };
         Ok(Self { t0, t_end, step, h, count })
     }

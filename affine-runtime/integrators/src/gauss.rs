@@ -50,8 +50,8 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<GaussSteps<S, F, Flat>> {
     /// The integration at its start. One evaluation.
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::StepUnderflow`] where `step` is
-    /// not positive, or gives more steps than there are floating-point times.
+    /// [`Failure::NotFinite`] where `y0` or `f(t0, y0)` is not finite; [`Failure::Step`] where `step` is not
+    /// positive, not finite, or gives more steps than there are floating-point times.
     pub fn new(
         f: F,
         tableau: &'static Tableau,

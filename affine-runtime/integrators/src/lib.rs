@@ -85,7 +85,7 @@ pub enum Failure {
     StepUnderflow,
     /// The equations of one of equal steps have no solution, or none that the iteration finds: the step is too long.
     NoSolution {
-        /// The least defect met, relative to the largest component of the state.
+        /// The defect with which the iteration ended, relative to the largest component of the state and its increments.
         residual: f64,
     },
     /// The velocities are not linear in the momenta, or depend on the placement, or the state is not canonical: the
@@ -105,6 +105,15 @@ pub enum Failure {
     Tolerance {
         /// Its value.
         given: f64,
+    },
+    /// The length of equal steps is not positive, not finite, or lost in the rounding of times.
+    Step {
+        /// Its value.
+        given: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
     },
 }
 
@@ -142,6 +151,10 @@ impl fmt::Display for Failure {
             Failure::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, a positive number; 1e-6 to 1e-13 are common"
+            ),
+            Failure::Step { given, t0, t_end } => write!(
+                f,
+                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of times"
             ),
         }
     }

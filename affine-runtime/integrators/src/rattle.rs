@@ -73,7 +73,7 @@ impl<const N: usize, S: StateVector<f64>, F: Fn(f64, &S) -> S> Equal<RattleSteps
     /// # Errors
     /// [`Failure::NotSeparable`] unless the groups are `phi` and `Pi`, with `x` and `p` or without, with the work or without, and
     /// velocities are linear in the momenta and independent of the placement; [`Failure::OffConstraint`] where the start is not on
-    /// the constraints; [`Failure::NotFinite`]; [`Failure::StepUnderflow`] where `step` is not positive, or gives more
+    /// the constraints; [`Failure::NotFinite`]; [`Failure::Step`] where `step` is not positive, not finite, or gives more
     /// steps than there are floating-point times.
     pub fn new(
         f: F,

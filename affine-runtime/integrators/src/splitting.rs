@@ -50,7 +50,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> Equal<SplittingSteps<S, C, P>> {
     /// The integration at its start, of order 2, 4, 6 or 8; `None` for other orders.
     ///
     /// # Errors
-    /// [`Failure::NotFinite`] where `y0` is not finite; [`Failure::StepUnderflow`] where `step` is not positive, or
+    /// [`Failure::NotFinite`] where `y0` is not finite; [`Failure::Step`] where `step` is not positive, not finite, or
     /// gives more steps than there are floating-point times.
     pub fn new(
         (pieces, constants): (P, C),

@@ -63,11 +63,6 @@ pub enum StopReason {
         /// Its value.
         given: f64,
     },
-    /// The length of a fixed step is not positive, not finite, or lost in the rounding of times.
-    Step {
-        /// Its value.
-        given: f64,
-    },
     /// Two angles of U(n) coincide or are opposite, or a fixed step does not resolve how two places meet: there the
     /// equations have a pole.
     Coincidence {
@@ -303,9 +298,6 @@ impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StopReason::Integration(failure) => failure.fmt(f),
-            StopReason::Step { given } => {
-                write!(f, "a step of {given:e}: it is a positive number, coarser than the rounding of times")
-            }
             StopReason::Tolerance { given } => write!(
                 f,
                 "tolerance {given:e}: it is a relative error per step, at least 1e-15 (what rounding leaves of double \

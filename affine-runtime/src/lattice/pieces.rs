@@ -7,7 +7,6 @@ use crate::decompose::LinearMap;
 use crate::error::Error;
 use crate::frames::Matrix;
 use crate::inner::accumulate;
-use crate::integrate::Failure;
 use crate::scalar::{Real, Scalar};
 use affine_integrators::Statistics;
 use affine_integrators::lie::Sum;
@@ -123,8 +122,8 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
     /// `ceil(|t_end - t0|/step)` steps of the method of order 2, 4, 6 or 8; `None` for other orders.
     ///
     /// # Errors
-    /// [`StopReason::Coincidence`] where two stretches are equal; [`StopReason::Step`] where `step` is not positive, not finite,
-    /// or smaller than floating-point times tell apart; [`StopReason::Integration`] where a time or the state is not finite.
+    /// [`StopReason::Coincidence`] where two stretches are equal; [`StopReason::Integration`] where the state is not finite,
+    /// `step` not positive, not finite, or smaller than floating-point times tell apart.
     pub fn new(
         model: &'a M,
         order: usize,
@@ -153,11 +152,7 @@ impl<'a, const N: usize, M: LatticePieces<N>> LatticeSplitting<'a, N, M> {
             (frame * spin * frame.transpose() * -inverse_mu, side)
         });
         let begun = steps.map(|steps| Self { steps, couplings, sorting, whirl, t0, stop: None });
-        let begun = if step.is_finite() { begun } else { Err(Failure::StepUnderflow) };
-        Some(begun.map_err(|failure| match failure {
-            Failure::StepUnderflow => stop(StopReason::Step { given: step }),
-            other => stop(StopReason::Integration(other)),
-        }))
+        Some(begun.map_err(|failure| stop(StopReason::Integration(failure))))
     }
 
     /// Takes one step; does nothing at `t_end`.

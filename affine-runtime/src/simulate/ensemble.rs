@@ -2,6 +2,7 @@
 
 mod asked;
 mod bodies;
+mod chosen;
 mod ends;
 mod part;
 mod recording;
@@ -21,6 +22,7 @@ use crate::error::{Setting, Stop};
 use crate::lanes::{F64x8, Lanes};
 use crate::model::{Handle, Model};
 use asked::{Asked, Events, Start};
+use chosen::Chosen;
 
 pub use asked::Member;
 
@@ -78,7 +80,7 @@ pub struct Ensemble<'a, const N: usize, H: Handle<N>> {
     plan: Plan,
     events: Box<Events<'a, N, PointOf<N, H>>>,
     progress: Box<dyn Fn(u64) + Send + Sync + 'a>,
-    shard: (u64, u64),
+    chosen: Vec<Chosen>,
 }
 
 impl<'a, const N: usize, M: Model<N> + Sync> Ensemble<'a, N, &'a M> {
@@ -110,7 +112,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
             plan: Plan { output: Output::At(Vec::new()), ..Plan::default() },
             events: Box::new(Vec::new),
             progress: Box::new(|_| {}),
-            shard: (0, 1),
+            chosen: Vec::new(),
         }
     }
 
@@ -178,8 +180,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     #[cfg(feature = "progress")]
     #[must_use]
     pub fn progress_bar(self) -> Self {
-        let (_, of) = self.shard;
-        let count = self.starts.size_hint().1.and_then(|count| (count as u64).checked_div(of));
+        let left = |count: usize| self.chosen.iter().fold(count as u64, |count, chosen| chosen.left(count));
+        let count = self.starts.size_hint().1.map(left);
         let bar = count.map_or_else(indicatif::ProgressBar::no_length, indicatif::ProgressBar::new);
         self.progress(move |done| bar.set_position(done))
     }
@@ -188,19 +190,15 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     /// its number and its bits; the bodies of all shards, put in the order of their numbers, are those of the ensemble.
     #[must_use]
     pub fn shard(mut self, k: u64, of: u64) -> Self {
-        self.shard = (k, of);
-        self.keeping(move |number| number.checked_rem(of) == Some(k))
+        self.chosen.push(Chosen::Shard { k, of });
+        self
     }
 
     /// The bodies of these numbers alone: one that is to be looked at again, or those that are not done yet. Starts of the
     /// others are passed over, not run.
     #[must_use]
-    pub fn numbers(self, numbers: Range<u64>) -> Self {
-        self.keeping(move |number| numbers.contains(&number))
-    }
-
-    fn keeping(mut self, keeps: impl Fn(u64) -> bool + Send + 'a) -> Self {
-        self.starts = Box::new(self.starts.filter(move |start| keeps(start.number)));
+    pub fn numbers(mut self, numbers: Range<u64>) -> Self {
+        self.chosen.push(Chosen::Numbers(numbers));
         self
     }
 }
@@ -256,10 +254,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
 
     /// The end and the outputs, of settings that make sense.
     fn checked(&self) -> core::result::Result<(f64, Schedule), Setting> {
-        let (k, of) = self.shard;
-        if k >= of {
-            return Err(Setting::Shard { k, of });
-        }
+        self.chosen.iter().try_for_each(Chosen::checked)?;
         (self.events)().iter().try_for_each(Event::checked)?;
         self.plan.checked(&H::Model::DESCRIPTION)
     }
@@ -323,7 +318,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         PointOf<N, H>: Send + Sync,
     {
         let (t_end, schedule) = self.checked()?;
-        let Self { mut starts, plan, events, progress, .. } = self;
+        let Self { starts, plan, events, progress, chosen } = self;
+        let mut starts = starts.filter(|start| chosen.iter().all(|chosen| chosen.has(start.number)));
         let done = AtomicU64::new(0);
         let has_events = !events().is_empty();
         let asked = Asked {

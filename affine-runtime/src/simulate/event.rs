@@ -120,6 +120,7 @@ pub struct Occurrence<P> {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::inner::word"))]
     pub name: Word,
     /// Its time.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub t: f64,
     /// The phase point there, before any change.
     pub point: P,

@@ -211,11 +211,12 @@ where
         Ok(body)
     }
 
-    /// Steps that a body has taken, in lanes and by itself.
+    /// Steps that a body has taken, in lanes and by itself; none where there is no such body.
     fn steps(&self, number: usize) -> u64 {
         match self.alone.get(number) {
             Some(Some(alone)) => alone.body.statistics().steps,
-            _ => self.eight(number).map_or(0, |(eight, lane)| eight.steps(lane)),
+            Some(None) => self.eight(number).map_or(0, |(eight, lane)| eight.steps(lane)),
+            None => 0,
         }
     }
 
@@ -279,7 +280,7 @@ where
     /// Those of a point that is none, [`Setting::Body`] for a body that is none; the body stays as it is.
     pub fn set_point(&mut self, number: usize, point: PointOf<N, H>) -> Result<(), Stop> {
         let put = self.handle(number).cloned().ok_or(self.no_body(number));
-        put.and_then(|handle| self.put(number, handle, point)).map_err(|reason| self.stopped_by(reason))
+        put.and_then(|handle| self.put(number, handle, point)).map_err(|reason| self.stays(number, reason))
     }
 
     /// Replaces the model of a body by one with other fields; placement and momenta stay what they are. One that had stopped goes
@@ -289,7 +290,7 @@ where
     /// As [`set_point`](Self::set_point) of the point reached.
     pub fn set_model(&mut self, number: usize, model: H) -> Result<(), Stop> {
         let put = self.point(number).ok_or(self.no_body(number));
-        put.and_then(|point| self.put(number, model, point)).map_err(|reason| self.stopped_by(reason))
+        put.and_then(|point| self.put(number, model, point)).map_err(|reason| self.stays(number, reason))
     }
 
     /// Largest number of steps to one time; a million if not set. Equal steps are counted before they are taken: where there would
@@ -303,8 +304,15 @@ where
         Setting::Body { number, of: self.len() }.into()
     }
 
+    /// Why a body stays where it is.
+    fn stays(&self, number: usize, reason: Reason) -> Stop {
+        Stop { reason, t: self.t, steps: self.steps(number) }
+    }
+
+    /// Why all bodies stay where they are, after the most steps that one of them has taken.
     fn stopped_by(&self, reason: Reason) -> Stop {
-        Stop { reason, t: self.t, steps: 0 }
+        let steps = (0..self.len()).map(|number| self.steps(number)).max();
+        Stop { reason, t: self.t, steps: steps.unwrap_or(0) }
     }
 
     /// The bodies that did not come to the time reached, with the reasons. Each is at its last good point, from which

@@ -52,6 +52,7 @@ pub enum Method {
         /// Number of stages, 2, 3, 4 or 6.
         stages: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
         step: f64,
     },
     /// Radau IIA collocation, [`Radau`](affine_integrators::Radau): implicit and L-stable, for friction that takes velocities away
@@ -71,6 +72,7 @@ pub enum Method {
         /// Order of the composition, 2, 4, 6 or 8: of 1, 5, 9 or 17 steps.
         order: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
         step: f64,
     },
     /// Exact flows of pieces of the Hamiltonian in turn, [`Splitting`](affine_integrators::Splitting), of a model with
@@ -94,6 +96,7 @@ pub enum Method {
         /// The order, 2, 4, 6 or 8.
         order: usize,
         /// Length of a step, positive; the interval is divided into equal steps that are not longer.
+        #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
         step: f64,
     },
     /// The same in steps by their error, [`AdaptiveSplitting`](affine_integrators::AdaptiveSplitting): for a stiff dilatation that

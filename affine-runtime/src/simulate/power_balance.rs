@@ -17,13 +17,16 @@ use crate::state::Phase;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PowerBalance {
     /// `H(t_end) - H(t0)`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub energy: f64,
     /// `W(t_end)`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub work: f64,
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end.
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub defect: f64,
     /// The size it is held against: the largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub scale: f64,
 }
 

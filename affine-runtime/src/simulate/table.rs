@@ -30,7 +30,7 @@ use crate::state::Phase;
 pub struct Table {
     about: Vec<(String, String)>,
     names: Vec<String>,
-    #[cfg_attr(feature = "serde", serde(with = "super::written::columns"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     columns: Vec<Vec<f64>>,
 }
 

@@ -18,8 +18,11 @@ use crate::state::Phase;
 pub struct Trajectory<const N: usize, P> {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::inner::constant"))]
     pub(super) description: &'static Description,
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) start: (f64, P),
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) end: (f64, P),
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) times: Vec<f64>,
     pub(super) points: Vec<P>,
     /// Energies of these points; the trajectory does not keep the model to compute them later.
@@ -28,11 +31,11 @@ pub struct Trajectory<const N: usize, P> {
     pub(super) computation: Computation,
     pub(super) events: Vec<Occurrence<P>>,
     /// Name of the event that ended the run.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::text"))]
+    #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::inner::optional_word"))]
     pub(super) stopped_by: Option<Word>,
     pub(super) checkpoint: Option<Box<Checkpoint>>,
     /// Bases in which the model's metrics are the identity.
-    #[cfg_attr(feature = "serde", serde(with = "super::written::bases"))]
+    #[cfg_attr(feature = "serde", serde(default, with = "super::written"))]
     pub(super) bases: Option<Box<Bases<N>>>,
     /// What lies between the outputs, where that was asked for.
     #[cfg_attr(feature = "serde", serde(skip, default = "Option::default"))]
@@ -50,8 +53,10 @@ pub struct Computation {
     pub method: Method,
     /// Tolerance of the integration: what was asked for, or 1e-6 where that is smaller and
     /// the mass matrix may degenerate on the way.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub tolerance: f64,
     /// What was asked for.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub tolerance_asked: f64,
     /// The start has a closed form.
     pub closed_form_exists: bool,
@@ -60,21 +65,26 @@ pub struct Computation {
     /// `p = 0` at the start.
     pub at_rest: bool,
     /// What `emit(...)` would have to list for the method that [`Method::Automatic`] would rather take.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::text"))]
+    #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::inner::optional_word"))]
     pub missing: Option<Word>,
     /// How many radians of the fastest motion a step by pieces can be long, where that is why [`Method::Automatic`] takes
     /// [`Method::AdaptiveSplitting`].
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub stiffness: Option<f64>,
     /// The rate at which friction takes velocities away, where that is why [`Method::Automatic`] takes [`Method::Radau`].
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub friction: Option<f64>,
     /// From when on, where another method took the motion there.
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub stiff_since: Option<f64>,
     /// Where multiply-adds were fused on the machine on which the run was interrupted, if that is not as here.
     pub fused_before: Option<FusedArithmetic>,
     /// Condition number of a kinetic energy whose coefficients are fields, [`Model::condition`](crate::model::Model::condition),
     /// at the start; `None` where they are numbers, which were checked when the model was compiled.
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub condition: Option<f64>,
     /// Largest relative residual of the equations of implicit steps; `None` where the method is explicit.
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub residual: Option<f64>,
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then, where that
     /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
@@ -89,7 +99,7 @@ pub struct Computation {
     /// The largest part of a turn that an angle of the potential, such as `w*t` in `cos(w*t)`, makes by the time alone within one
     /// step, with that part of the potential; `None` where there is no such angle, and in a run that takes no steps. A resumed run
     /// knows only the steps of its own part.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::written::named"))]
+    #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub turns: Option<(&'static str, f64)>,
     /// `|det phi|` at the end over the sum of the sizes of the products that it is made of: what is left of its digits.
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
@@ -99,13 +109,19 @@ pub struct Computation {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Energies {
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) start: f64,
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) end: f64,
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) outputs: Vec<f64>,
     /// Work of the forces that no potential has, at the outputs and at the end; zero where there are none.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) work: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) work_at_end: f64,
     /// Largest of `|H|` and `(|Pi| |phi_dot| + |p| |x_dot|)/2`, which bounds the kinetic energy whatever its sign.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub(super) scale: f64,
 }
 

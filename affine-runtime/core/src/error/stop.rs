@@ -34,6 +34,7 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
+        #[cfg_attr(feature = "serde", serde(default, with = "crate::interned::number"))]
         rate: Option<f64>,
         /// The time at which `det phi` fell to zero: the zero itself of the closed form, else, to the rounding of times,
         /// that of the dense output of the step in which it lies; the time of a start that is bad.
@@ -136,7 +137,7 @@ pub enum Reason {
     },
     /// The equations of an implicit step have no solution, or none that the iteration finds.
     NoSolution {
-        /// The least defect met, relative to the largest component of the reduced state.
+        /// The defect with which the iteration ended, relative to the largest component of the reduced state and its increments.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         residual: f64,
         /// The longest step allowed.
@@ -320,6 +321,7 @@ impl std::error::Error for Stop {}
 struct Written {
     reason: String,
     cause: Reason,
+    #[serde(with = "crate::interned::number")]
     t: f64,
     steps: u64,
 }

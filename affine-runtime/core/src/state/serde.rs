@@ -1,12 +1,13 @@
 //! Phase points as they are written and read: `phi` and the momentum of the model's own frame, row by row, then `x` and `p`
-//! where there is a centre of mass. Numbers of text formats that are read exactly give the same bits.
+//! where there is a centre of mass. Numbers of text formats that are read exactly give the same bits. Points that a run has
+//! come to are read whatever they are, also those that no run begins at.
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 use super::{Centre, PhasePoint, Pinned};
 use crate::frames::{Frame, Matrix, Vector};
-use crate::kinematics::LogDeterminant;
+use crate::interned::number::Number;
 use crate::parts::{Basis, Translation};
 use core::fmt;
 use core::marker::PhantomData;
@@ -42,11 +43,11 @@ impl<const N: usize, F: Frame, C: Written<N>, B: Basis> Serialize for PhasePoint
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut numbers = serializer.serialize_tuple(Self::NUMBERS)?;
         for matrix in [&self.phi, &self.spin] {
-            (0..N * N).try_for_each(|k| numbers.serialize_element(&matrix[(k / N, k % N)]))?;
+            (0..N * N).try_for_each(|k| numbers.serialize_element(&Number(&matrix[(k / N, k % N)])))?;
         }
         if C::MOVES {
             let (x, p) = (self.centre.position(), self.centre.momentum());
-            x.iter().chain(p.iter()).try_for_each(|number| numbers.serialize_element(number))?;
+            x.iter().chain(p.iter()).try_for_each(|number| numbers.serialize_element(&Number(number)))?;
         }
         numbers.end()
     }
@@ -55,7 +56,7 @@ impl<const N: usize, F: Frame, C: Written<N>, B: Basis> Serialize for PhasePoint
 impl<'de, const N: usize, F: Frame, C: Written<N>, B: Basis> Deserialize<'de>
     for PhasePoint<N, F, C, f64, B>
 {
-    /// Refuses what is no phase point: as many numbers, all finite, and `det phi > 0`.
+    /// Refuses what has not as many numbers.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_tuple(Self::NUMBERS, Numbers(PhantomData))
     }
@@ -69,25 +70,22 @@ impl<'de, const N: usize, F: Frame, C: Written<N>, B: Basis> Visitor<'de>
     type Value = PhasePoint<N, F, C, f64, B>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the {} numbers of a phase point, finite, with det phi > 0", Self::Value::NUMBERS)
+        write!(f, "the {} numbers of a phase point", Self::Value::NUMBERS)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut numbers: A) -> Result<Self::Value, A::Error> {
         let mut read = [0.0; 24];
         let expected = read.get_mut(..Self::Value::NUMBERS).into_iter().flatten();
         for (k, number) in expected.enumerate() {
-            *number = numbers.next_element()?.ok_or_else(|| A::Error::invalid_length(k, &self))?;
-            if !f64::is_finite(*number) {
-                return Err(A::Error::custom("a number of the phase point is not finite"));
-            }
+            let next: Option<Number<f64>> = numbers.next_element()?;
+            Number(*number) = next.ok_or_else(|| A::Error::invalid_length(k, &self))?;
         }
         let mut read = read.into_iter();
         let mut next = || read.next().unwrap_or_default();
         let [phi, spin] = [(); 2].map(|()| Matrix::<N>::from_fn(|_, _| next()).transpose());
         let [x, p] = [(); 2].map(|()| Vector::<N>::from_fn(|_, _| next()));
-        match C::read(x, p) {
-            Some(centre) if LogDeterminant::of(&phi).is_positive() => Ok(PhasePoint::new(phi, spin, centre)),
-            _ => Err(A::Error::custom("the placement of the phase point has no positive determinant")),
-        }
+        let centre =
+            C::read(x, p).ok_or_else(|| A::Error::custom("there are no phase points of this model"))?;
+        Ok(PhasePoint::new(phi, spin, centre))
     }
 }

@@ -71,8 +71,8 @@ struct Corrected<S> {
     residual: f64,
 }
 
-/// The equations have no solution that could be found; the least residual or correction met, infinite where nothing was
-/// finite.
+/// The equations have no solution that could be found; the residual or correction with which the iteration that came nearest
+/// ended, infinite where nothing was finite.
 pub(super) struct Unsolved {
     pub(super) residual: f64,
 }
@@ -136,7 +136,6 @@ impl<S: StateVector<f64>> Equations<S> {
     ) -> Result<Solution<S>, Unsolved> {
         let mut increments = guess;
         let mut descent = Descent::new();
-        let mut least = f64::INFINITY;
         let (mut last, mut last_but_one) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1.. {
             let images = self.images(f, start, &increments);
@@ -146,20 +145,19 @@ impl<S: StateVector<f64>> Equations<S> {
             if residual.is_nan() || residual == f64::INFINITY {
                 break;
             }
-            least = if residual < least { residual } else { least };
             if !descent.goes_on(&change, 1.0) && residual <= SOLVED {
                 return Ok(Solution { increments, residual });
             }
             let rate = Scalar::sqrt(residual / last_but_one);
+            (last_but_one, last) = (last, residual);
             if residual > SOLVED
                 && iteration >= FIRST_RATE
                 && expected(iteration, residual, rate) > MOST_FIXED_POINT
             {
                 break;
             }
-            (last_but_one, last) = (last, residual);
         }
-        Err(Unsolved { residual: least })
+        Err(Unsolved { residual: last })
     }
 
     fn corrected<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
@@ -170,18 +168,16 @@ impl<S: StateVector<f64>> Equations<S> {
     ) -> Result<Solution<S>, Unsolved> {
         let mut increments = first;
         let mut descent = Descent::new();
-        let mut least = f64::INFINITY;
-        let mut last = f64::INFINITY;
+        let (mut last, mut open) = (f64::INFINITY, f64::INFINITY);
         if !self.newton.is_known() {
             self.differentiate(f, start, &increments);
         }
         for _ in 0..MOST_CORRECTIONS {
             let Some(Corrected { change, size, residual }) = self.correct(f, start, &mut increments) else {
-                return Err(Unsolved { residual: least });
+                return Err(Unsolved { residual: open });
             };
             // Beside increments that grow without bounds any defect is small.
-            let open = if size > residual { size } else { residual };
-            least = if open < least { open } else { least };
+            open = if size > residual { size } else { residual };
             if !descent.goes_on(&change, NO_GAIN) && size <= SOLVED {
                 return Ok(Solution { increments, residual });
             }
@@ -190,13 +186,15 @@ impl<S: StateVector<f64>> Equations<S> {
             }
             last = size;
         }
-        if last <= SOLVED { self.refined(f, start, increments) } else { Err(Unsolved { residual: least }) }
+        if last <= SOLVED { self.refined(f, start, increments) } else { Err(Unsolved { residual: open }) }
     }
 
     /// Increments that all corrections have brought within [`SOLVED`], and of which some component still gains: slowly, by
     /// a Jacobian of other increments, or since what rounding leaves is random, and among many components there is often
     /// one whose correction is the least so far. By the Jacobian at the increments themselves all but rounding is gone
-    /// with the first correction, and a component whose correction does not shrink has come to it.
+    /// with the first correction, and a component whose correction does not shrink has come to it. One whose correction
+    /// shrinks to the last is solved no less: where the force of a contact has ended at one stage and not half-way through
+    /// the step, what that stage adds falls by a constant factor each time, and has no rounding to come to.
     fn refined<F: Fn(f64, &S) -> S, C: Coordinates<S>>(
         &mut self,
         f: &Field<'_, S, F, C>,
@@ -205,22 +203,22 @@ impl<S: StateVector<f64>> Equations<S> {
     ) -> Result<Solution<S>, Unsolved> {
         let mut increments = reached;
         let mut descent = Descent::new();
-        let mut least = f64::INFINITY;
+        let mut left = f64::INFINITY;
         self.differentiate(f, start, &increments);
         for _ in 0..MOST_CORRECTIONS {
             let Some(Corrected { change, size, residual }) = self.correct(f, start, &mut increments) else {
-                break;
+                return Err(Unsolved { residual: f64::INFINITY });
             };
-            least = if size < least { size } else { least };
-            descent.settle(&change, NO_GAIN);
             if size > SOLVED {
-                break;
+                return Err(Unsolved { residual: size });
             }
+            left = residual;
+            descent.settle(&change, NO_GAIN);
             if descent.is_settled() {
-                return Ok(Solution { increments, residual });
+                break;
             }
         }
-        Err(Unsolved { residual: least })
+        Ok(Solution { increments, residual: left })
     }
 
     /// One correction of the increments; `None` where there is none that is finite.

@@ -41,7 +41,7 @@ impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> SplittingInLanes<T, S,
     /// Lanes of zeros at a time; `None` for orders other than 2, 4, 6 and 8.
     ///
     /// # Errors
-    /// [`Failure::Time`] where the time is not finite, [`Failure::StepUnderflow`] where the step is not positive.
+    /// [`Failure::Time`] where the time is not finite, [`Failure::Step`] where the step is not positive or not finite.
     pub fn new(pieces: P, order: usize, t0: f64, step: f64) -> Option<Result<Self, Failure>> {
         const { assert!(T::LANES.is_multiple_of(8), "lanes fill the vectors of every processor") }
         let sweeps = of_order(order, (P::NYSTROM, P::DILATES))?;
@@ -107,7 +107,7 @@ impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> SplittingInLanes<T, S,
     /// Goes on to another end.
     ///
     /// # Errors
-    /// [`Failure::Time`], [`Failure::StepUnderflow`] where there are no steps to it; the end stays what it was.
+    /// [`Failure::Time`], [`Failure::Step`] where there are no steps to it; the end stays what it was.
     pub fn aim(&mut self, t_end: f64) -> Result<(), Failure> {
         self.steps.aim(t_end)
     }

@@ -16,6 +16,7 @@ pub struct Member<P, A> {
     /// Where it is in the end, or why it did not get there; where an event ended its run, the point there.
     pub end: Result<P, Stop>,
     /// The time reached: that of the end, of the event that ended its run, or of the last good phase point before it stopped.
+    #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub t: f64,
     /// Its events, up to where it ended or stopped.
     pub events: Vec<Occurrence<P>>,

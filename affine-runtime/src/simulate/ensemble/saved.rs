@@ -19,7 +19,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     /// body that stopped with the reason.
     ///
     /// A run that is ended from outside loses the chunk under way at most: the same call goes on after the chunks that the
-    /// manifest names, and gives the same bytes. Starts, models and events have to be the same; settings and shard are compared.
+    /// manifest names, and gives the same bytes. Starts, models and events have to be the same; settings, shard and numbers are compared.
     ///
     /// # Errors
     /// [`Error::File`]; [`Error::RepeatedColumn`]; [`Setting::Checkpoint`](crate::simulate::Setting::Checkpoint) for a folder of
@@ -36,10 +36,10 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         H::Model: InLanes<N>,
         PointOf<N, H>: Send + Sync,
     {
-        let Self { plan, shard: (k, of), .. } = &self;
+        let Self { plan, chosen, .. } = &self;
         let model = H::Model::DESCRIPTION.name;
         let run = format!(
-            "bodies of {model}, shard {k} of {of}, {chunk} a file in {format:?}, {plan:?}, columns {names:?}"
+            "bodies of {model}, chosen by {chosen:?}, {chunk} a file in {format:?}, {plan:?}, columns {names:?}"
         );
         let mut table = Table::of_bodies::<N, H::Model>(names)?;
         // Nothing is written of what would not run: the manifest is of these settings.
