@@ -101,7 +101,22 @@ fn expansions_multiply_little_out() {
     let traces =
         ["tr(G^4*Ct^2)", "tr(G^3*Ct^2)", "tr(G*Ct*G*Ct*G)", "tr(phi^6)", "tr(G^16)", "(tr(G^2*Ct)-3)^4"];
     let matrices = ["tr((G+Ct)^4)", "tr((G+Ct)^16)", "tr((G*Ct)^4)", "tr((G-1)^16)", "tr((G*Ct+phi)^3)^2"];
-    let more = more.into_iter().chain(traces).chain(matrices);
+    // Also where it is decided what is smooth, and far from rest.
+    let entries = |name: &str| {
+        let all = (1..=3).flat_map(|i| (1..=3).map(move |a| format!("{name}[{i},{a}]")));
+        all.collect::<Vec<_>>().join(" + ")
+    };
+    let nine = entries("phi");
+    let many = format!("{nine} + {} + {} + q", entries("G"), entries("Ct"));
+    let in_functions = [
+        format!("ln(({nine})^12 + 1)"),
+        format!("sqrt(1 + ({nine})^16)"),
+        format!("q/(({nine})^16 + 1)"),
+        format!("ln(({many})^8 + 1)"),
+        format!("q/(({many})^16 + 1)"),
+    ];
+    let in_functions = in_functions.iter().map(String::as_str);
+    let more = more.into_iter().chain(traces).chain(matrices).chain(in_functions);
     let table = energies::TEXTS.iter().map(|(name, n, text)| (*name, *n, *text));
     for (name, n, text) in table.chain(more.map(|text| (text, 3, text))) {
         let work = product(n, text);

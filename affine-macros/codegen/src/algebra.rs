@@ -24,6 +24,7 @@ pub mod root;
 pub mod span;
 pub mod substitute;
 pub mod text;
+pub mod vanishing;
 pub mod work;
 
 pub use arena::{Arena, Expr};

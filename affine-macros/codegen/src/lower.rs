@@ -10,6 +10,7 @@ mod potential;
 mod traces;
 
 use crate::algebra::arena::Node;
+use crate::algebra::fault::never_missing;
 use crate::algebra::ring::table;
 use crate::algebra::{Arena, Expr, Function, Matrix, Rational};
 use crate::mechanics::custom::{By, Class, Custom, On, Role};
@@ -26,6 +27,18 @@ pub use metrics::metrics;
 pub use momentum_side::stated;
 pub use potential::{PotentialEnergy, potential};
 
+/// Why an expression has no value.
+#[derive(Clone, Debug)]
+pub enum NoValue {
+    /// This part of it is divided by, and is zero.
+    ZeroDivisor(Expression),
+    /// It is nothing that has a value, which a check refuses by a name of its own.
+    Malformed,
+}
+
+/// The value of an expression.
+pub type Lowered = Result<Expr, NoValue>;
+
 /// Does the expression depend on more than fields?
 pub(crate) fn moves(arena: &Arena, expr: Expr) -> bool {
     arena.any_symbol(expr, &mut |symbol| !arena.is_parameter(symbol))
@@ -39,9 +52,8 @@ pub fn terms(arena: &mut Arena, n: usize, written: &[spec::Term]) -> Vec<(usize,
         .filter(|(_, term)| {
             !term.value.expressions().all(|e| constant(e, n).is_some_and(|value| value.is_zero()))
         })
-        .filter_map(|(place, term)| {
-            let value = coefficient(arena, n, &term.value)?;
-            Some((place, Term { kind: term.kind.value, value }))
+        .map(|(place, term)| {
+            (place, Term { kind: term.kind.value, value: coefficient(arena, n, &term.value) })
         })
         .collect()
 }
@@ -68,9 +80,7 @@ pub fn forces(
     let mut customs: Vec<Custom> =
         spec.customs.iter().enumerate().map(|(k, custom)| custom_field(k + 1, custom)).collect();
     for gravity in &spec.self_gravity {
-        if let Some(strength) = expression(arena, n, &gravity.strength) {
-            customs.push(Custom::self_gravity(customs.len() + 1, strength));
-        }
+        customs.push(Custom::self_gravity(customs.len() + 1, certain(arena, n, &gravity.strength)));
     }
     Forces { dissipation, customs, driven: false, accounted: false }
 }
@@ -95,73 +105,84 @@ fn custom_field(place: usize, written: &spec::Custom) -> Custom {
     Custom { place, name: written.field.to_string(), role, by: By::Field }
 }
 
-fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Option<Coefficient> {
-    Some(match value {
-        Value::Scalar(e) => Coefficient::Scalar(expression(arena, n, e)?),
+fn coefficient(arena: &mut Arena, n: usize, value: &Value) -> Coefficient {
+    match value {
+        Value::Scalar(e) => Coefficient::Scalar(certain(arena, n, e)),
         Value::Diagonal(entries) => {
             let zero = arena.constant(Rational::ZERO);
-            let entries = entries.iter().map(|e| expression(arena, n, e)).collect::<Option<Vec<Expr>>>()?;
+            let entries: Vec<Expr> = entries.iter().map(|e| certain(arena, n, e)).collect();
             Coefficient::Matrix(Matrix(table(entries.len(), |i, j| if i == j { entries[i] } else { zero })))
         }
-        Value::Matrix(rows) => Coefficient::Matrix(Matrix(
-            rows.iter()
-                .map(|row| row.iter().map(|e| expression(arena, n, e)).collect())
-                .collect::<Option<_>>()?,
-        )),
-    })
+        Value::Matrix(rows) => {
+            let row = |row: &Vec<Expression>| row.iter().map(|e| certain(arena, n, e)).collect();
+            Coefficient::Matrix(Matrix(rows.iter().map(row).collect()))
+        }
+    }
 }
 
-/// The symbolic value of a coefficient; `None` only for what the checks refuse (division by zero) and for the
-/// forms that only potentials have.
-pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Option<Expr> {
+/// The symbolic value of a coefficient that was checked.
+fn certain(arena: &mut Arena, n: usize, e: &Expression) -> Expr {
+    let value = expression(arena, n, e).ok();
+    never_missing(value, "what the checks let through has a value", arena.constant(Rational::ZERO))
+}
+
+/// The symbolic value of a coefficient.
+///
+/// # Errors
+/// [`NoValue`] where it divides by zero, and for the forms that only potentials have.
+pub(crate) fn expression(arena: &mut Arena, n: usize, e: &Expression) -> Lowered {
     match &e.kind {
-        ExpressionKind::Symbol(name) if name != "n" => Some(arena.symbol(Symbol::Field(name.to_string()))),
+        ExpressionKind::Symbol(name) if name != "n" => Ok(arena.symbol(Symbol::Field(name.to_string()))),
         // One symbol for both triangles: `prepare()` refuses a field that is not symmetric.
         ExpressionKind::FieldEntry(field, row, column) => {
-            Some(arena.symbol(Symbol::Entry(field.to_string(), *row.min(column), *row.max(column))))
+            Ok(arena.symbol(Symbol::Entry(field.to_string(), *row.min(column), *row.max(column))))
         }
         _ => arithmetic(arena, n, e, &|arena, operand| expression(arena, n, operand)),
     }
 }
 
-/// The value of an expression without fields, or of what an operator makes of others, by their values; `None` of all else.
+/// The value of an expression without fields, or of what an operator makes of others, by their values.
 fn arithmetic(
     arena: &mut Arena,
     n: usize,
     e: &Expression,
-    of: &dyn Fn(&mut Arena, &Expression) -> Option<Expr>,
-) -> Option<Expr> {
+    of: &dyn Fn(&mut Arena, &Expression) -> Lowered,
+) -> Lowered {
     if let Some(value) = constant(e, n) {
-        return Some(arena.constant(value));
+        return Ok(arena.constant(value));
     }
     match &e.kind {
         ExpressionKind::Negate(a) => {
             let a = of(arena, a)?;
-            Some(arena.neg(a))
+            Ok(arena.neg(a))
         }
-        ExpressionKind::Binary(Operator::Power, a, exponent) => {
-            let a = of(arena, a)?;
-            let exponent = constant(exponent, n)?;
+        ExpressionKind::Binary(Operator::Power, base, exponent) => {
+            let a = of(arena, base)?;
+            let exponent = constant(exponent, n).ok_or(NoValue::Malformed)?;
             match (exponent.to_i64().and_then(|k| i32::try_from(k).ok()), arena.node(a)) {
-                (Some(k), _) => arena.pow(a, k),
+                (Some(k), _) => arena.pow(a, k).ok_or_else(|| zero_divisor(base)),
                 // exp(u)^k = exp(k u): of det, D, I_n and stretches, which are positive.
                 (None, &Node::Function(Function::Exp, logarithm)) => {
                     let logarithm = arena.scale(logarithm, &exponent);
-                    Some(arena.apply(Function::Exp, logarithm))
+                    Ok(arena.apply(Function::Exp, logarithm))
                 }
-                (None, _) => None,
+                (None, _) => Err(NoValue::Malformed),
             }
         }
-        ExpressionKind::Binary(operator, a, b) => {
-            let (a, b) = (of(arena, a)?, of(arena, b)?);
+        ExpressionKind::Binary(operator, left, right) => {
+            let (a, b) = (of(arena, left)?, of(arena, right)?);
             match operator {
-                Operator::Add => Some(arena.add(a, b)),
-                Operator::Subtract => Some(arena.sub(a, b)),
-                Operator::Multiply => Some(arena.mul(a, b)),
-                Operator::Divide => arena.div(a, b),
-                Operator::Power => None,
+                Operator::Add => Ok(arena.add(a, b)),
+                Operator::Subtract => Ok(arena.sub(a, b)),
+                Operator::Multiply => Ok(arena.mul(a, b)),
+                Operator::Divide => arena.div(a, b).ok_or_else(|| zero_divisor(right)),
+                Operator::Power => Err(NoValue::Malformed),
             }
         }
-        _ => None,
+        _ => Err(NoValue::Malformed),
     }
+}
+
+fn zero_divisor(divisor: &Expression) -> NoValue {
+    NoValue::ZeroDivisor(divisor.clone())
 }

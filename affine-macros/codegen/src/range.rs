@@ -3,11 +3,11 @@
 //! Coefficients are exact: their products, quotients and powers may be of any size. Which numbers are written down is known
 //! when the model is derived.
 
-use crate::algebra::{Arena, Expr, Rational};
+use crate::algebra::{Arena, Rational};
 use crate::derive::{Model, Written};
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::ir::build::Builder;
-use crate::lower;
+use crate::lower::{self, Lowered};
 use crate::spec::{Expression, Spec};
 use crate::symbol::Quantity;
 
@@ -59,19 +59,22 @@ fn hardest(written: &impl Written) -> Option<&Rational> {
 /// An expression of the specification.
 struct Source<'s> {
     whole: &'s Expression,
-    dim: usize,
-    lower: fn(&mut Arena, usize, &Expression) -> Option<Expr>,
+    spec: &'s Spec,
+    lower: fn(&mut Arena, &Spec, &Expression) -> Lowered,
 }
 
 fn sources(spec: &Spec) -> Vec<Source<'_>> {
-    let dim = spec.dim.value;
-    let coefficients = spec.coefficients().map(|whole| Source { whole, dim, lower: lower::expression });
+    let coefficients = spec.coefficients().map(|whole| Source {
+        whole,
+        spec,
+        lower: |arena, spec, part| lower::expression(arena, spec.dim.value, part),
+    });
     let potential = spec.potential.iter().map(|potential| Source {
         whole: &potential.energy,
-        dim,
-        lower: |arena, n, part| {
+        spec,
+        lower: |arena, spec, part| {
             let difference = arena.symbol(Quantity::Difference);
-            lower::energy(arena, n, part, Some(difference))
+            lower::energy(arena, spec, part, Some(difference))
         },
     });
     coefficients.chain(potential).collect()
@@ -81,7 +84,7 @@ impl<'s> Source<'s> {
     /// The hardest number of a part as it stands.
     fn number(&self, part: &Expression) -> Option<Rational> {
         let (mut arena, mut builder) = (Arena::new(), Builder::new());
-        let value = (self.lower)(&mut arena, self.dim, part)?;
+        let value = (self.lower)(&mut arena, self.spec, part).ok()?;
         builder.output(&arena, Quantity::Value, value);
         hardest(&builder.finish()).cloned()
     }

@@ -267,22 +267,10 @@ impl Arena {
             Node::Constant(value) => value.is_negative(),
             _ => false,
         };
-        let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
-        let odd = matches!(
-            function,
-            Function::Sin
-                | Function::Sinh
-                | Function::Tan
-                | Function::Tanh
-                | Function::Asinh
-                | Function::Sign
-                | Function::Cbrt
-                | Function::InverseCbrt
-        );
-        if negative && (even || odd) {
+        if negative && (function.is_even() || function.is_odd()) {
             let opposite = self.neg(argument);
             let value = self.apply(function, opposite);
-            return if even { value } else { self.neg(value) };
+            return if function.is_even() { value } else { self.neg(value) };
         }
         self.intern(Node::Function(function, argument))
     }
@@ -316,7 +304,7 @@ impl Arena {
     }
 
     /// The expression with what stands right below its root replaced; `None` where a part has no value, or where a divisor
-    /// becomes zero.
+    /// or what a logarithm is taken of becomes zero.
     pub fn with_parts(
         &mut self,
         expr: Expr,
@@ -340,7 +328,9 @@ impl Arena {
             }
             Node::Function(function, argument) => {
                 let argument = value(self, argument)?;
-                Some(self.apply(function, argument))
+                let zero =
+                    function == Function::Ln && self.as_constant(argument).is_some_and(Rational::is_zero);
+                (!zero).then(|| self.apply(function, argument))
             }
         }
     }

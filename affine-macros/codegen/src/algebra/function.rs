@@ -36,6 +36,17 @@ pub enum Function {
 }
 
 impl Function {
+    /// `f(-x) = f(x)`?
+    pub fn is_even(self) -> bool {
+        matches!(self, Self::Cos | Self::Cosh | Self::Abs)
+    }
+
+    /// `f(-x) = -f(x)`?
+    pub fn is_odd(self) -> bool {
+        let circular = matches!(self, Self::Sin | Self::Tan | Self::Sinh | Self::Tanh | Self::Asinh);
+        circular || matches!(self, Self::Sign | Self::Cbrt | Self::InverseCbrt)
+    }
+
     /// Its name, in specifications as in Rust.
     pub fn name(self) -> &'static str {
         match self {

@@ -23,16 +23,9 @@ impl Residue {
     /// Nothing is known.
     pub const UNKNOWN: Self = Self(None);
 
-    /// A value for an indeterminate that depends on its name alone: FNV-1a, and the last steps of SplitMix64 (Steele et al.,
-    /// OOPSLA 2014), without which names that differ in the last letter alone have values in arithmetic progression.
+    /// A value for an indeterminate that depends on its name alone.
     pub fn sample(name: &str) -> Self {
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        for byte in name.bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-        hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        Self(Some((hash ^ (hash >> 31)) % Self::MODULUS))
+        Self(Some(hash(name) % Self::MODULUS))
     }
 
     /// The fraction that it stands for, numerator and denominator at most [`SMALL`](Self::SMALL) (Wang, Proc. SYMSAC 1981,
@@ -55,11 +48,16 @@ impl Residue {
     }
 }
 
-/// Is the expression zero whatever its symbols are, by its values at two points? Not where it has none.
-pub fn vanishes(arena: &Arena, expr: Expr) -> bool {
-    POINTS
-        .iter()
-        .all(|point| at(arena, expr, &|symbol| Residue::sample(&format!("{symbol}{point}"))) == Some(0))
+/// FNV-1a, and the last steps of SplitMix64 (Steele et al., OOPSLA 2014), without which names that differ in the last letter
+/// alone have values in arithmetic progression.
+pub(super) fn hash(name: &str) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for byte in name.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    }
+    hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    hash ^ (hash >> 31)
 }
 
 /// Does the value of the expression change with the symbols that are not `kept`, at two points? Also where it has none.
@@ -74,7 +72,7 @@ pub fn depends_on(arena: &Arena, expr: Expr, kept: &impl Fn(&Symbol) -> Option<R
 }
 
 /// Endings of names, which make other samples of them.
-const POINTS: [&str; 2] = ["", "'"];
+pub(super) const POINTS: [&str; 2] = ["", "'"];
 
 fn at(arena: &Arena, expr: Expr, value: &dyn Fn(&Symbol) -> Residue) -> Option<u64> {
     evaluate(arena, expr, &|symbol| Some(value(symbol)))?.0

@@ -7,7 +7,7 @@ use super::function::Function;
 use crate::symbol::Symbol;
 
 impl Arena {
-    /// The expression with symbols replaced; `None` where a divisor becomes zero.
+    /// The expression with symbols replaced; `None` where a divisor, or what a logarithm is taken of, becomes zero.
     pub fn substitute(&mut self, expr: Expr, value: &dyn Fn(Expr) -> Option<Expr>) -> Option<Expr> {
         self.substituted(expr, value, &mut FxHashMap::default())
     }

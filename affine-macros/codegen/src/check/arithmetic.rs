@@ -2,12 +2,12 @@
 
 use num_bigint::BigInt;
 
-use super::identity::vanishes;
 use super::size::{of_potential, summands};
-use crate::algebra::fault::never_missing;
-use crate::algebra::{Function, Rational};
+use crate::algebra::fault::{never_missing, record};
+use crate::algebra::{Arena, Function, Rational};
 use crate::diagnostics::{Diagnostic, Diagnostics, ExpressionMistake, PotentialMistake, Reported};
-use crate::lower::{LARGEST_POWER, constant, integer};
+use crate::lower::{self, LARGEST_POWER, Lowered, NoValue, constant, integer};
+use crate::mechanics::potential::stretches::vanishes;
 use crate::spec::{Expression, ExpressionKind, Operator, Spec, numbered};
 
 /// The largest degree of a potential. Its functions are not multiplied out, so it may be higher than that of a
@@ -39,7 +39,6 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
         .map(|expression| (expression, Place::Coefficient))
         .chain(spec.potential.iter().map(|potential| (&potential.energy, Place::Potential)));
     for (expression, place) in placed {
-        // First, for divisors are multiplied out.
         let size = match place {
             Place::Coefficient => summands(expression, spec.dim.value, found),
             Place::Potential => of_potential(expression, spec.dim.value, found),
@@ -48,31 +47,63 @@ pub(super) fn computable(spec: &Spec, found: &mut Diagnostics) -> Result<(), Rep
             result = Err(reported);
             continue;
         }
-        result = degree(expression, place, spec.dim.value, found).map(|_| ()).and(result);
+        let computed = degree(expression, place, spec, found).and_then(|_| {
+            value(&mut Arena::new(), expression, place, spec)
+                .map_or_else(|why| no_value(why, found), |_| Ok(()))
+        });
+        result = computed.and(result);
     }
     result
+}
+
+/// The value of an expression, in a potential with the first pair of stretches for a difference.
+fn value(arena: &mut Arena, expression: &Expression, place: Place, spec: &Spec) -> Lowered {
+    match place {
+        Place::Coefficient => lower::expression(arena, spec.dim.value, expression),
+        Place::Potential => {
+            let difference = lower::difference_of(arena, 0, 1);
+            lower::energy(arena, spec, expression, Some(difference))
+        }
+    }
+}
+
+/// Says what has no value: a divisor that is zero; all else was refused by a name of its own.
+pub(super) fn no_value(reason: NoValue, found: &mut Diagnostics) -> Result<(), Reported> {
+    match reason {
+        NoValue::ZeroDivisor(divisor) => {
+            let mistake = ExpressionMistake::DivisionByZero { divisor: divisor.to_string() };
+            return Err(found.report(divisor.span, mistake));
+        }
+        NoValue::Malformed if found.verdict().is_ok() => record("what the checks know has a value"),
+        NoValue::Malformed => {}
+    }
+    Ok(())
 }
 
 /// The degree of an expression in its numbers, fields and variables, which bounds the digits of its exact
 /// value: products add degrees and powers multiply them, and the value of a function counts as a variable. The
 /// rules below are applied from the leaves upwards, so that what they evaluate is bounded already.
-fn degree(expression: &Expression, place: Place, n: usize, found: &mut Diagnostics) -> Result<u64, Reported> {
+fn degree(
+    expression: &Expression,
+    place: Place,
+    spec: &Spec,
+    found: &mut Diagnostics,
+) -> Result<u64, Reported> {
     // All operands before the first error is looked for, so that all are reported.
     let degrees: Vec<_> =
-        expression.operands().into_iter().map(|operand| degree(operand, place, n, found)).collect();
+        expression.operands().into_iter().map(|operand| degree(operand, place, spec, found)).collect();
     let degrees: Vec<u64> = degrees.into_iter().collect::<Result<_, _>>()?;
     let degree = match &expression.kind {
         ExpressionKind::Binary(Operator::Power, base, exponent) => {
-            let power = exponent_is_integer(base, exponent, place, n, found)?;
+            let power = exponent_is_integer(base, exponent, place, spec.dim.value, found)?;
             let base_degree = never_missing(degrees.first().copied(), "a power has a base", 1);
             if power < 0 {
-                divisor_is_not_zero(base, base_degree, n, found)?;
+                divisor_is_not_zero(base, place, spec, found)?;
             }
             base_degree * u64::from(power.unsigned_abs())
         }
         ExpressionKind::Binary(Operator::Divide, _, divisor) => {
-            let of_divisor = never_missing(degrees.last().copied(), "a quotient has a divisor", 1);
-            divisor_is_not_zero(divisor, of_divisor, n, found)?;
+            divisor_is_not_zero(divisor, place, spec, found)?;
             degrees.iter().sum()
         }
         ExpressionKind::Binary(Operator::Multiply, ..) => degrees.iter().sum(),
@@ -170,19 +201,19 @@ fn degree_is_bounded(
     Err(found.report(expression.span, ExpressionMistake::Degree { degree, limit }))
 }
 
-/// A divisor that is zero, as a number or whatever the fields are; one that is zero for some values of the
-/// fields is left to `prepare()`, and for some states to the run. A divisor is multiplied out only where its
-/// degree is that of a coefficient.
+/// A divisor that is zero, as a number or whatever the fields and the state are; one that is zero for some values of the
+/// fields is left to `prepare()`, and for some states to the run.
 fn divisor_is_not_zero(
     divisor: &Expression,
-    degree: u64,
-    n: usize,
+    place: Place,
+    spec: &Spec,
     found: &mut Diagnostics,
 ) -> Result<(), Reported> {
-    if degree <= LARGEST_POWER && vanishes(divisor, n) {
-        return Err(
-            found.report(divisor.span, ExpressionMistake::DivisionByZero { divisor: divisor.to_string() })
-        );
+    let mut arena = Arena::new();
+    match value(&mut arena, divisor, place, spec) {
+        Ok(value) if vanishes(&mut arena, spec.dim.value, value, None) => {
+            no_value(NoValue::ZeroDivisor(divisor.clone()), found)
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }

@@ -1,5 +1,6 @@
 //! Rules on the kinetic energy as a quadratic form, decided exactly.
 
+use super::arithmetic::no_value;
 use super::written::vanishing_term;
 use super::{definite, dissipation, momentum_side, smooth, together, two_polar, unitary};
 use crate::algebra::Arena;
@@ -231,8 +232,11 @@ fn potential(
     (metrics, rebased): (Option<&Metrics>, &mut Vec<Rebased>),
     found: &mut Diagnostics,
 ) -> Option<Potential> {
-    let PotentialEnergy { energy, domain, slopes, multiplied_out } =
-        lower::potential(arena, spec, metrics, rebased)?;
+    let stated = match lower::potential(arena, spec, metrics, rebased) {
+        Ok(stated) => stated?,
+        Err(reason) => return no_value(reason, found).ok().and(None),
+    };
+    let PotentialEnergy { energy, domain, slopes, multiplied_out } = stated;
     let (Some(group), Some(constraint), Some(written)) = (group, spec.constraint, &spec.potential) else {
         let mut potential = Potential::new(arena, spec.dim.value, energy).within(domain);
         if let Some(slopes) = slopes {

@@ -1,8 +1,10 @@
 //! Rules on the potential energy as written.
 
 use super::symbols::names;
-use crate::algebra::Function;
+use crate::algebra::{Arena, Function, Rational};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
+use crate::lower;
+use crate::mechanics::potential::stretches::vanishes;
 use crate::spec::{Expression, ExpressionKind, MatrixName, Spec, Symbol};
 
 /// `d` is the difference of the two log-stretches of a pair: elsewhere there is no pair.
@@ -74,12 +76,20 @@ pub(super) fn in_domain(spec: &Spec, found: &mut Diagnostics) {
         let ExpressionKind::Call(function @ (Function::Ln | Function::Sqrt), argument) = &part.kind else {
             continue;
         };
-        let value = crate::lower::constant(argument, spec.dim.value);
-        if let Some(value) = value.filter(|value| value.is_zero() || value.is_negative()) {
+        if let Some(value) = known(spec, argument).filter(|value| value.is_zero() || value.is_negative()) {
             let (function, argument, value) = (function.name(), argument.to_string(), value.to_string());
             found.report(part.span, PotentialMistake::Domain { function, argument, value });
         }
     }
+}
+
+/// The value of a part that is the same in every state: a number, or zero.
+fn known(spec: &Spec, part: &Expression) -> Option<Rational> {
+    let mut arena = Arena::new();
+    let difference = lower::difference_of(&mut arena, 0, 1);
+    let value = lower::energy(&mut arena, spec, part, Some(difference)).ok()?;
+    let zero = vanishes(&mut arena, spec.dim.value, value, None).then_some(Rational::ZERO);
+    arena.as_constant(value).cloned().or(zero)
 }
 
 pub(super) fn energy(spec: &Spec) -> impl Iterator<Item = &Expression> {

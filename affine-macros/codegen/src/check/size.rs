@@ -2,6 +2,7 @@
 
 use super::potential::parts;
 use crate::algebra::Function;
+use crate::algebra::ring::above_diagonal;
 use crate::diagnostics::{Diagnostics, ExpressionMistake, Reported};
 use crate::lower::integer;
 use crate::spec::{Expression, ExpressionKind, MatrixName, Operator, more_factors, numbered};
@@ -100,6 +101,9 @@ fn counted(expression: &Expression, n: usize, found: &mut Diagnostics) -> Result
             integer(exponent, n).map_or(ONE, |exponent| base.power(exponent))
         }
         (ExpressionKind::Call(function, argument), [of]) => of.applied(*function, argument),
+        (ExpressionKind::Pairs(_), [of]) => {
+            Summands { above: of.above.saturating_mul(above_diagonal(n).count() as u64), ..ONE }
+        }
         (ExpressionKind::Trace(factors), _) => Summands { above: of_trace(factors.len(), n), ..ONE },
         (ExpressionKind::PolynomialTrace(trace), _) => match &trace.products {
             Some(products) => counted(products, n, found)?,

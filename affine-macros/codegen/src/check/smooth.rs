@@ -11,7 +11,7 @@ use crate::algebra::{Arena, Expr, Function};
 use crate::diagnostics::{Diagnostics, PotentialMistake};
 use crate::lower;
 use crate::mechanics::potential::stretches::{
-    canonical, exchanged, is_stretched, singular_at_coincidence, vanishes_at_coincidence,
+    canonical, exchanged, is_stretched, singular_at_coincidence, vanishes,
 };
 use crate::spec::{Expression, ExpressionKind, Operator, Spec};
 use crate::symbol::Quantity;
@@ -20,7 +20,8 @@ use crate::symbol::Quantity;
 pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) {
     let n = spec.dim.value;
     for written in energy(spec) {
-        let Some(value) = lower::energy(arena, n, written, None) else { continue };
+        // The checks before have let it through.
+        let Ok(value) = lower::energy(arena, spec, written, None) else { continue };
         // Without single stretches there is nothing to exchange, and traces stay as they are written.
         let stretched = is_stretched(arena, n, value);
         let value = if stretched { canonical(arena, n, value) } else { value };
@@ -34,7 +35,7 @@ pub(super) fn potential(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics)
         if !absolute && singular.is_none() {
             continue;
         }
-        let kinks = kinks(arena, n, written, None);
+        let kinks = kinks(arena, spec, written, None);
         let innermost = kinks.into_iter().find(|kink| match kink {
             Kink::Absolute(_) => absolute,
             Kink::Coincidence(..) => singular.is_some(),
@@ -64,9 +65,8 @@ fn even_in_differences(arena: &mut Arena, spec: &Spec, found: &mut Diagnostics) 
         let ExpressionKind::Pairs(f) = &part.kind else { continue };
         let d = lower::difference_of(arena, 0, 1);
         let opposite = arena.neg(d);
-        let values = [d, opposite].map(|d| lower::energy(arena, n, f, Some(d)));
-        let [Some(one), Some(other)] = values.map(|value| value.map(|value| canonical(arena, n, value)))
-        else {
+        let values = [d, opposite].map(|d| lower::energy(arena, spec, f, Some(d)));
+        let [Ok(one), Ok(other)] = values.map(|value| value.map(|value| canonical(arena, n, value))) else {
             continue;
         };
         if one != other {
@@ -124,23 +124,29 @@ enum Kink<'a> {
 }
 
 /// Is the part an absolute value of what changes with the state, and its sign?
-fn is_absolute(arena: &mut Arena, n: usize, part: &Expression, difference: Option<Expr>) -> bool {
-    let value = lower::energy(arena, n, part, difference).map(|value| arena.node(value));
+fn is_absolute(arena: &mut Arena, spec: &Spec, part: &Expression, difference: Option<Expr>) -> bool {
+    let value = lower::energy(arena, spec, part, difference).ok().map(|value| arena.node(value));
     matches!(value, Some(Node::Function(Function::Abs, argument)) if moves(arena, *argument))
 }
 
 /// All such places, the inner ones first; `d` stands for `difference`.
-fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Option<Expr>) -> Vec<Kink<'a>> {
+fn kinks<'a>(
+    arena: &mut Arena,
+    spec: &Spec,
+    part: &'a Expression,
+    difference: Option<Expr>,
+) -> Vec<Kink<'a>> {
+    let n = spec.dim.value;
     let inner = match part.kind {
         ExpressionKind::Pairs(_) => Some(lower::difference_of(arena, 0, 1)),
         _ => difference,
     };
     let mut list: Vec<Kink> =
-        part.operands().into_iter().flat_map(|operand| kinks(arena, n, operand, inner)).collect();
+        part.operands().into_iter().flat_map(|operand| kinks(arena, spec, operand, inner)).collect();
     let vanishing = match &part.kind {
         // The root of a square is an absolute value too.
         ExpressionKind::Call(Function::Abs | Function::Sqrt, _)
-            if is_absolute(arena, n, part, difference) =>
+            if is_absolute(arena, spec, part, difference) =>
         {
             list.push(Kink::Absolute(part));
             return list;
@@ -153,13 +159,13 @@ fn kinks<'a>(arena: &mut Arena, n: usize, part: &'a Expression, difference: Opti
     };
     let singular_power = match &part.kind {
         ExpressionKind::Binary(Operator::Power, _, exponent) => {
-            crate::lower::constant(exponent, n).is_some_and(|k| k.is_negative())
+            lower::constant(exponent, n).is_some_and(|k| k.is_negative())
         }
         _ => true,
     };
-    if let Some(value) = lower::energy(arena, n, vanishing, difference).filter(|_| singular_power) {
+    if let Some(value) = lower::energy(arena, spec, vanishing, difference).ok().filter(|_| singular_power) {
         let pairs = above_diagonal(n);
-        let found = pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, value, *a, *b));
+        let found = pairs.into_iter().find(|pair| vanishes(arena, n, value, Some(*pair)));
         if let Some((a, b)) = found {
             list.push(Kink::Coincidence(part, vanishing, (a + 1, b + 1)));
         }

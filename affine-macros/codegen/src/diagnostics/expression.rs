@@ -303,7 +303,7 @@ impl ExpressionMistake {
             ),
             Self::DivisionByZero { divisor } => text(
                 format!("division by `{divisor}`, which is zero"),
-                "a quotient by zero has no value; coefficients are exact, so that no rounding made this one vanish",
+                "a quotient by zero has no value; expressions are exact, so that no rounding made this one vanish",
                 "write a divisor that is not zero",
             ),
         }

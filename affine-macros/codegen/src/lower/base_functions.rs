@@ -1,18 +1,22 @@
 //! An expression of a potential in base functions of the placement, the time and the fields.
 
-use super::arithmetic;
 use super::components;
 use super::traces::{self, entry};
+use super::{Lowered, NoValue, arithmetic};
 use crate::algebra::arena::Node;
 use crate::algebra::ring::above_diagonal;
 use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::Base;
-use crate::spec::{Expression, ExpressionKind, numbered};
+use crate::spec::{Expression, ExpressionKind, Spec, numbered};
 use crate::symbol::{Aspect, Quantity, Symbol};
 
-/// The symbolic value, with `difference` for `d`; `None` only for what the checks refuse.
-pub(crate) fn energy(arena: &mut Arena, n: usize, e: &Expression, difference: Option<Expr>) -> Option<Expr> {
-    value(arena, n, e, Reading { difference, ..Reading::default() })
+/// The symbolic value of a part of a potential, with `difference` for `d`.
+///
+/// # Errors
+/// [`NoValue`] where it divides by zero, and for other forms than a part of a potential has.
+pub(crate) fn energy(arena: &mut Arena, spec: &Spec, e: &Expression, difference: Option<Expr>) -> Lowered {
+    let given = spec.metrics.iter().any(Option::is_some);
+    value(arena, spec.dim.value, e, Reading { difference, given, ..Reading::default() })
 }
 
 /// How an expression is read.
@@ -28,32 +32,35 @@ pub(super) struct Reading<'a> {
     pub(super) named: &'a [(Expr, Expr)],
 }
 
-pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
+pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Lowered {
     let of = |arena: &mut Arena, operand: &Expression| value(arena, n, operand, reading);
     let component = |arena: &mut Arena, base: Base| {
         if reading.given { components::symbol(arena, base) } else { base.symbol(arena) }
     };
+    let from_zero = |index: usize| index.checked_sub(1).ok_or(NoValue::Malformed);
     match &e.kind {
-        ExpressionKind::Symbol(name) if name == "d" => reading.difference,
-        ExpressionKind::Symbol(name) if name != "n" => symbol(arena, n, &name.to_string()),
+        ExpressionKind::Symbol(name) if name == "d" => reading.difference.ok_or(NoValue::Malformed),
+        ExpressionKind::Symbol(name) if name != "n" => {
+            symbol(arena, n, &name.to_string()).ok_or(NoValue::Malformed)
+        }
         ExpressionKind::Call(function, a) => {
             let a = of(arena, a)?;
-            Some(applied(arena, *function, a))
+            Ok(applied(arena, *function, a))
         }
         ExpressionKind::Trace(_) | ExpressionKind::PolynomialTrace(_) => trace(arena, n, e, reading),
         ExpressionKind::InverseTrace(_) => {
-            let [above, below] = [n.checked_sub(1)?, n].map(|k| symbol(arena, n, &format!("I{k}")));
-            arena.div(above?, below?)
+            let [above, below] = [n.saturating_sub(1), n].map(|k| symbol(arena, n, &format!("I{k}")));
+            above.zip(below).and_then(|(above, below)| arena.div(above, below)).ok_or(NoValue::Malformed)
         }
         ExpressionKind::Entry(matrix, row, column) => {
-            Some(component(arena, entry(*matrix, row.checked_sub(1)?, column.checked_sub(1)?)))
+            Ok(component(arena, entry(*matrix, from_zero(*row)?, from_zero(*column)?)))
         }
-        ExpressionKind::Component(index) => Some(component(arena, Base::Position(index.checked_sub(1)?))),
+        ExpressionKind::Component(index) => Ok(component(arena, Base::Position(from_zero(*index)?))),
         ExpressionKind::Norm => {
             let x = arena.components(Quantity::Position, n);
             let squares: Vec<_> = x.into_iter().map(|x| (arena.mul(x, x), Rational::ONE)).collect();
             let square = arena.linear(&squares);
-            Some(arena.apply(Function::Sqrt, square))
+            Ok(arena.apply(Function::Sqrt, square))
         }
         ExpressionKind::Pairs(f) => {
             let mut terms = Vec::new();
@@ -61,7 +68,7 @@ pub(super) fn value(arena: &mut Arena, n: usize, e: &Expression, reading: Readin
                 let difference = Some(difference_of(arena, a, b));
                 terms.push((value(arena, n, f, Reading { difference, ..reading })?, Rational::ONE));
             }
-            Some(arena.linear(&terms))
+            Ok(arena.linear(&terms))
         }
         // Matrices stand within traces only, and entries of fields have no notation.
         _ => arithmetic(arena, n, e, &of),
@@ -129,12 +136,12 @@ fn symbol(arena: &mut Arena, n: usize, name: &str) -> Option<Expr> {
 }
 
 /// A trace, or what stands for it.
-fn trace(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Option<Expr> {
+fn trace(arena: &mut Arena, n: usize, e: &Expression, reading: Reading) -> Lowered {
     if let (true, ExpressionKind::PolynomialTrace(trace)) = (reading.multiplied_out, &e.kind) {
-        return value(arena, n, trace.products.as_ref()?, reading);
+        return value(arena, n, trace.products.as_ref().ok_or(NoValue::Malformed)?, reading);
     }
     // Traces within traces are numbers among others.
     let inside = Reading { named: &[], ..reading };
     let trace = traces::value(arena, n, e, &|arena, part| value(arena, n, part, inside))?;
-    Some(reading.named.iter().find(|(known, _)| *known == trace).map_or(trace, |(_, symbol)| *symbol))
+    Ok(reading.named.iter().find(|(known, _)| *known == trace).map_or(trace, |(_, symbol)| *symbol))
 }

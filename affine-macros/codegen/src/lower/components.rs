@@ -23,19 +23,20 @@ pub(super) fn carried(
     expressions: &[Expr],
     metrics: &Metrics,
     rebased: &mut Vec<Rebased>,
-) -> Option<Vec<Expr>> {
+) -> Vec<Expr> {
     let mut bases: Vec<Base> = (0..n).map(Base::Position).collect();
     bases.extend(pairs(n).map(|(i, a)| Base::Placement(i, a)));
     bases.extend(upper(n).flat_map(|(a, b)| [Base::Green(a, b), Base::Finger(a, b)]));
     let named: Vec<(Expr, Base)> = bases.into_iter().map(|base| (symbol(arena, base), base)).collect();
     let is_named = |e: Expr| named.iter().any(|(symbol, _)| *symbol == e);
     if !expressions.iter().any(|one| arena.any_symbol(*one, &mut |e| is_named(e))) {
-        return Some(expressions.to_vec());
+        return expressions.to_vec();
     }
     let [space_inverse, body] = metrics.factors(arena, rebased);
     let values: Vec<(Expr, Expr)> =
         named.into_iter().map(|(symbol, base)| (symbol, value(arena, base, &space_inverse, &body))).collect();
-    expressions.iter().map(|one| arena.substitute(*one, &listed(&values))).collect()
+    // Metrics are regular: what is not zero in the bases of the user is not zero in others.
+    expressions.iter().map(|one| arena.replaced(*one, &listed(&values))).collect()
 }
 
 /// A component as a sum of those in orthonormal bases.

@@ -3,8 +3,9 @@
 
 use super::base_functions::{Reading, difference_of, is_positive, value};
 use super::constant::constant;
+use crate::algebra::fault::never_missing;
 use crate::algebra::ring::above_diagonal;
-use crate::algebra::{Arena, Expr, Function};
+use crate::algebra::{Arena, Expr, Function, Rational};
 use crate::mechanics::potential::{Bound, Guard};
 use crate::spec::{Expression, ExpressionKind, Operator};
 use crate::symbol::Quantity;
@@ -49,10 +50,9 @@ impl Guards<'_> {
             ExpressionKind::Call(Function::Sqrt, argument) => self.keep(part, argument, Bound::NotNegative),
             // A tangent is a quotient by the cosine.
             ExpressionKind::Call(Function::Tan, argument) => {
-                if let Some(argument_value) = self.value(argument) {
-                    let cosine = self.arena.apply(Function::Cos, argument_value);
-                    self.add(part, format!("cos({argument})"), Bound::NotZero, cosine);
-                }
+                let value = self.value(argument);
+                let cosine = self.arena.apply(Function::Cos, value);
+                self.add(part, format!("cos({argument})"), Bound::NotZero, cosine);
             }
             ExpressionKind::Binary(Operator::Divide, _, divisor) => self.divide(part, divisor),
             ExpressionKind::Binary(Operator::Power, base, exponent)
@@ -85,7 +85,7 @@ impl Guards<'_> {
 
     /// The argument of a periodic function, where it contains the time.
     fn turn(&mut self, part: &Expression, argument: &Expression) {
-        let Some(value) = self.value(argument) else { return };
+        let value = self.value(argument);
         let time = self.arena.symbol(Quantity::Time);
         let is_known = self.found.iter().any(|guard| guard.value == value && guard.bound == Bound::Angle);
         if !is_known && self.arena.any_symbol(value, &mut |symbol| symbol == time) {
@@ -95,18 +95,14 @@ impl Guards<'_> {
     }
 
     fn keep(&mut self, part: &Expression, argument: &Expression, bound: Bound) {
-        if let Some(value) = self.value(argument) {
-            self.add(part, argument.to_string(), bound, value);
-        }
+        let value = self.value(argument);
+        self.add(part, argument.to_string(), bound, value);
     }
 
-    fn value(&mut self, e: &Expression) -> Option<Expr> {
-        value(
-            self.arena,
-            self.n,
-            e,
-            Reading { difference: self.difference, given: self.given, ..Reading::default() },
-        )
+    fn value(&mut self, e: &Expression) -> Expr {
+        let reading = Reading { difference: self.difference, given: self.given, ..Reading::default() };
+        let value = value(self.arena, self.n, e, reading).ok();
+        never_missing(value, "parts of what has a value have one", self.arena.constant(Rational::ZERO))
     }
 
     /// One more guard, unless it holds everywhere, is there already, or is one of numbers and fields, which are looked at

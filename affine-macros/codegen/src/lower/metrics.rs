@@ -25,7 +25,7 @@ fn matrix(arena: &mut Arena, spec: &Spec, metric: Option<&Metric>) -> Option<Vec
     let n = spec.dim.value;
     let [zero, one] = [Rational::ZERO, Rational::ONE].map(|number| arena.constant(number));
     let stated = metric.map(|metric| coefficient(arena, n, &metric.value));
-    match stated.unwrap_or(Some(Coefficient::Scalar(one)))? {
+    match stated.unwrap_or(Coefficient::Scalar(one)) {
         Coefficient::Scalar(e) => Some(table(n, |i, j| if i == j { e } else { zero })),
         Coefficient::Matrix(Matrix(rows)) => {
             (rows.len() == n && rows.iter().all(|row| row.len() == n)).then_some(rows)

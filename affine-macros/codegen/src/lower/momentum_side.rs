@@ -7,7 +7,7 @@ use crate::mechanics::momentum_side::Stated;
 use crate::mechanics::term::Frame;
 use crate::spec::{MomentumKind, Spec, Value};
 
-use super::expression;
+use super::certain;
 
 /// The Hamiltonian, if the model states one; terms that are exactly zero leave no trace.
 pub fn stated(arena: &mut Arena, spec: &Spec) -> Option<Stated> {
@@ -18,7 +18,7 @@ pub fn stated(arena: &mut Arena, spec: &Spec) -> Option<Stated> {
         if constant(written, n).is_some_and(|value| value.is_zero()) {
             continue;
         }
-        let value = expression(arena, n, written)?;
+        let value = certain(arena, n, written);
         let value = Polynomial::normal_form(arena, value);
         let zero = Isotropic::zero();
         let frame = match term.kind.value {

@@ -2,8 +2,8 @@
 
 use super::base_functions::{Reading, value};
 use super::traces::{self, Trace};
-use super::{components, domain};
-use crate::algebra::residue::vanishes;
+use super::{NoValue, components, domain};
+use crate::algebra::vanishing::vanishes;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::metrics::{Metrics, Rebased};
 use crate::mechanics::potential::stretches::{canonical, is_stretched};
@@ -25,25 +25,33 @@ pub struct PotentialEnergy {
 
 /// The potential energy, if the model states one that is not zero. Beside metrics it stands in orthonormal bases; what
 /// `prepare()` has to know of them is added to `rebased`.
+///
+/// # Errors
+/// [`NoValue`] where it has none.
 pub fn potential(
     arena: &mut Arena,
     spec: &Spec,
     metrics: Option<&Metrics>,
     rebased: &mut Vec<Rebased>,
-) -> Option<PotentialEnergy> {
-    let written = &spec.potential.as_ref()?.energy;
+) -> Result<Option<PotentialEnergy>, NoValue> {
+    let Some(stated) = &spec.potential else { return Ok(None) };
+    let written = &stated.energy;
     let (n, given) = (spec.dim.value, metrics.is_some());
     let reading = Reading { given, ..Reading::default() };
     let mut energy = value(arena, n, written, reading)?;
-    let mut multiplied_out = value(arena, n, written, Reading { multiplied_out: true, ..reading });
+    let mut multiplied_out = match value(arena, n, written, Reading { multiplied_out: true, ..reading }) {
+        // There are too many products.
+        Err(NoValue::Malformed) => None,
+        multiplied_out => Some(multiplied_out?),
+    };
     let mut domain = domain::guards(arena, n, written, given);
     if let Some(metrics) = metrics {
         let mut all = vec![energy];
         all.extend(domain.iter().map(|guard| guard.value));
-        let mut carried = components::carried(arena, n, &all, metrics, rebased)?.into_iter();
-        energy = carried.next()?;
+        let carried = components::carried(arena, n, &all, metrics, rebased);
+        energy = carried[0];
         multiplied_out = None;
-        domain.iter_mut().zip(carried).for_each(|(guard, value)| guard.value = value);
+        domain.iter_mut().zip(&carried[1..]).for_each(|(guard, value)| guard.value = *value);
     }
     let mut through = None;
     if is_stretched(arena, n, energy) {
@@ -62,7 +70,7 @@ pub fn potential(
     };
     let multiplied_out = multiplied_out.filter(is_another);
     let slopes = through.map(|through| through.slopes);
-    (!vanishes(arena, energy)).then_some(PotentialEnergy { energy, domain, slopes, multiplied_out })
+    Ok((!vanishes(arena, energy)).then_some(PotentialEnergy { energy, domain, slopes, multiplied_out }))
 }
 
 /// The slopes of an energy through those of its traces; `None` where all of these are base functions.
@@ -91,7 +99,7 @@ impl Through {
         let is_of_powers = found.iter().all(|trace| trace.is_of_powers);
         let symbols = (0..found.len()).map(|k| arena.symbol(Quantity::PolynomialTrace.at([k + 1])));
         let named: Vec<(Expr, Expr)> = found.iter().map(|trace| trace.value).zip(symbols).collect();
-        let energy = value(arena, n, written, Reading { named: &named, ..Reading::default() })?;
+        let energy = value(arena, n, written, Reading { named: &named, ..Reading::default() }).ok()?;
         let mut parts: Vec<(Expr, Expr)> = Vec::new();
         for (symbol, outer) in arena.gradient(energy, &|_| true) {
             match named.iter().position(|(_, known)| *known == symbol) {

@@ -7,6 +7,7 @@ mod tape;
 
 use std::collections::BTreeMap;
 
+use super::{Lowered, NoValue};
 use crate::algebra::ring::{Square, pairs, table, transpose};
 use crate::algebra::{Arena, Expr, Rational};
 use crate::mechanics::potential::Base;
@@ -16,7 +17,7 @@ pub(super) use tape::entry;
 use tape::{Made, Scalars, Tape, times};
 
 /// The value of a trace.
-pub(super) fn value(arena: &mut Arena, n: usize, trace: &Expression, scalars: Scalars) -> Option<Expr> {
+pub(super) fn value(arena: &mut Arena, n: usize, trace: &Expression, scalars: Scalars) -> Lowered {
     Tape { arena, n, scalars, nodes: Vec::new() }.whole(trace).map(|(_, value)| value)
 }
 
@@ -32,7 +33,7 @@ pub(super) struct Trace {
 /// A trace with its slopes; `None` where it is a base function itself.
 pub(super) fn slopes(arena: &mut Arena, n: usize, trace: &Expression, scalars: Scalars) -> Option<Trace> {
     let mut tape = Tape { arena, n, scalars, nodes: Vec::new() };
-    let (terms, value) = tape.whole(trace)?;
+    let (terms, value) = tape.whole(trace).ok()?;
     if tape.arena.as_symbol(value).is_some() {
         return None;
     }
@@ -56,7 +57,7 @@ struct Term {
 
 impl Tape<'_> {
     /// A trace as a sum of those of products.
-    fn terms(&mut self, trace: &Expression) -> Option<Vec<Term>> {
+    fn terms(&mut self, trace: &Expression) -> Result<Vec<Term>, NoValue> {
         let one = self.arena.constant(Rational::ONE);
         let whole = match &trace.kind {
             ExpressionKind::Trace(factors) => {
@@ -68,22 +69,22 @@ impl Tape<'_> {
                 product
             }
             ExpressionKind::PolynomialTrace(trace) => self.read(&trace.written)?,
-            _ => return None,
+            _ => return Err(NoValue::Malformed),
         };
         let mut terms = Vec::new();
         self.split(whole, one, &mut terms);
-        Some(terms)
+        Ok(terms)
     }
 
     /// The same with the value of the sum.
-    fn whole(&mut self, trace: &Expression) -> Option<(Vec<Term>, Expr)> {
+    fn whole(&mut self, trace: &Expression) -> Result<(Vec<Term>, Expr), NoValue> {
         let terms = self.terms(trace)?;
         let value = |term: &Term| {
             let trace = self.trace(&term.factors);
             (self.arena.mul(term.scalar, trace), Rational::ONE)
         };
         let values: Vec<_> = terms.iter().map(value).collect();
-        Some((terms, self.arena.linear(&values)))
+        Ok((terms, self.arena.linear(&values)))
     }
 
     /// `scalar tr(whole)` as a sum of traces of products.

@@ -25,8 +25,8 @@ mod undeformed;
 mod volume;
 mod writing;
 
-use crate::algebra::residue::vanishes;
 use crate::algebra::substitute::listed;
+use crate::algebra::vanishing::vanishes;
 use crate::algebra::{Arena, Expr};
 use crate::symbol::Quantity;
 

@@ -1,14 +1,15 @@
 //! Matrices that are made of others: sums, products and powers, each of them once.
 
-use crate::algebra::residue::vanishes;
 use crate::algebra::ring::{Square, table};
+use crate::algebra::vanishing::vanishes;
 use crate::algebra::{Arena, Expr, Rational};
 use crate::lower::constant::integer;
+use crate::lower::{Lowered, NoValue, zero_divisor};
 use crate::mechanics::potential::Base;
 use crate::spec::{Expression, ExpressionKind, MatrixName, Operator};
 
 /// The values of parts without matrices.
-pub(super) type Scalars<'a> = &'a dyn Fn(&mut Arena, &Expression) -> Option<Expr>;
+pub(super) type Scalars<'a> = &'a dyn Fn(&mut Arena, &Expression) -> Lowered;
 
 /// Matrices in the order in which they are computed.
 pub(super) struct Tape<'a> {
@@ -37,9 +38,9 @@ pub(super) enum Made {
 
 impl Tape<'_> {
     /// A part of a polynomial.
-    pub(super) fn read(&mut self, part: &Expression) -> Option<usize> {
+    pub(super) fn read(&mut self, part: &Expression) -> Result<usize, NoValue> {
         let one = Rational::ONE;
-        Some(match &part.kind {
+        Ok(match &part.kind {
             ExpressionKind::Matrix(matrix) => self.named(*matrix),
             _ if !has_matrix(part) => {
                 let value = (self.scalars)(self.arena, part)?;
@@ -61,16 +62,16 @@ impl Tape<'_> {
             ExpressionKind::Binary(Operator::Divide, a, b) => {
                 let a = self.read(a)?;
                 let divisor = (self.scalars)(self.arena, b)?;
-                let inverse = self.arena.pow(divisor, -1)?;
+                let inverse = self.arena.pow(divisor, -1).ok_or_else(|| zero_divisor(b))?;
                 let inverse = self.scalar(inverse);
                 self.product(inverse, a)
             }
             ExpressionKind::Binary(Operator::Power, a, exponent) => {
                 let a = self.read(a)?;
-                let exponent = u32::try_from(integer(exponent, self.n)?).ok()?;
-                self.power(a, exponent)
+                let exponent = integer(exponent, self.n).and_then(|exponent| u32::try_from(exponent).ok());
+                self.power(a, exponent.ok_or(NoValue::Malformed)?)
             }
-            _ => return None,
+            _ => return Err(NoValue::Malformed),
         })
     }
 

@@ -17,7 +17,7 @@ use super::scaled::{self, collected, scaled_bases};
 use super::sums::{Sizes, Sums};
 use super::tensors::{definitions, green, own};
 
-/// Energies are multiplied out up to so many terms.
+/// Energies, and what stands in their functions and divisors, are multiplied out up to so many terms.
 const MOST_TERMS: u32 = 256;
 
 impl Potential {
@@ -71,7 +71,7 @@ impl Potential {
         let named = sums.named(arena, energy);
         // A power of `D` in a sum may have to cancel one beside it.
         let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
-        if scaled && Sizes::default().of(arena, energy) <= MOST_TERMS {
+        if scaled && Sizes::default().of_largest_part(arena, energy) <= MOST_TERMS {
             return Some((collected(arena, energy, d), Definitions::new()));
         }
         let shared = sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))).collect();

@@ -1,7 +1,8 @@
 //! What of a potential is a function of `q` with a motion in closed form.
 
 use crate::algebra::evaluate::Field;
-use crate::algebra::residue::{Residue, depends_on, vanishes};
+use crate::algebra::residue::{Residue, depends_on};
+use crate::algebra::vanishing::vanishes;
 use crate::algebra::{Arena, Polynomial, Rational};
 
 use super::rewriting::through_dilatation;

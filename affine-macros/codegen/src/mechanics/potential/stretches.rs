@@ -12,6 +12,7 @@ mod symmetric;
 use crate::algebra::arena::Node;
 use crate::algebra::ring::above_diagonal;
 use crate::algebra::substitute::listed;
+use crate::algebra::vanishing::is_zero;
 use crate::algebra::{Arena, Expr, Function, Rational};
 
 use super::base::{Base, log_stretches};
@@ -38,13 +39,17 @@ pub fn exchanged(arena: &mut Arena, n: usize, energy: Expr, a: usize, b: usize) 
     arena.substitute(energy, &listed(&[(q[a], q[b]), (q[b], q[a])]))
 }
 
-/// Does a function vanish wherever two stretches, counted from 0, coincide? `q` and the traces of `G` are what they are in
-/// terms of the stretches.
-pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: usize, b: usize) -> bool {
+/// Does a function vanish everywhere, or wherever two stretches, counted from 0, coincide, or has it no value there? `q` and the
+/// traces of `G` are what they are in terms of the stretches.
+pub fn vanishes(arena: &mut Arena, n: usize, function: Expr, coincidence: Option<(usize, usize)>) -> bool {
     let q = log_stretches(arena, n);
-    let stretches: Vec<Expr> = (0..n).map(|c| if c == b { q[a] } else { q[c] }).collect();
+    let mut stretches = q.clone();
+    if let Some((a, b)) = coincidence {
+        stretches[b] = stretches[a];
+    }
     let means: Vec<_> = stretches.iter().map(|q| (*q, Rational::one_over(n))).collect();
-    let mut values = vec![(q[b], q[a]), (Base::MeanLogStretch.symbol(arena), arena.linear(&means))];
+    let mut values: Vec<(Expr, Expr)> = q.into_iter().zip(stretches.iter().copied()).collect();
+    values.push((Base::MeanLogStretch.symbol(arena), arena.linear(&means)));
     for trace in Base::TRACES {
         let mut power = |q: &Expr| {
             let argument = arena.scale(*q, &Rational::whole(trace.degree()));
@@ -53,15 +58,15 @@ pub fn vanishes_at_coincidence(arena: &mut Arena, n: usize, function: Expr, a: u
         let powers: Vec<_> = stretches.iter().map(&mut power).collect();
         values.push((trace.symbol(arena), arena.linear(&powers)));
     }
-    let at_coincidence = arena.substitute(function, &listed(&values));
-    at_coincidence.is_none_or(|value| Form::of(arena, n, value).is_zero())
+    let value = arena.substitute(function, &listed(&values));
+    value.is_none_or(|value| is_zero(arena, value) != Some(false))
 }
 
 /// The first argument of a root, a logarithm or a quotient in `energy` that vanishes where two stretches coincide.
 pub fn singular_at_coincidence(arena: &mut Arena, n: usize, energy: Expr) -> Option<(Expr, (usize, usize))> {
     let vanishing = |arena: &mut Arena, argument: Expr| {
         let pairs = above_diagonal(n);
-        pairs.into_iter().find(|(a, b)| vanishes_at_coincidence(arena, n, argument, *a, *b))
+        pairs.into_iter().find(|pair| vanishes(arena, n, argument, Some(*pair)))
     };
     let mut pending = vec![energy];
     while let Some(expr) = pending.pop() {

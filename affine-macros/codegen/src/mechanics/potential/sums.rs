@@ -171,6 +171,18 @@ impl Sizes {
         self.0.insert(expr, size);
         size
     }
+
+    /// The same of the largest part, those in functions and divisors among them.
+    pub(super) fn of_largest_part(&mut self, arena: &Arena, expr: Expr) -> u32 {
+        let (mut open, mut seen, mut largest) = (vec![expr], FxHashSet::default(), 0);
+        while let Some(part) = open.pop() {
+            if seen.insert(part) {
+                largest = largest.max(self.of(arena, part));
+                open.extend(arena.parts(part));
+            }
+        }
+        largest
+    }
 }
 
 /// How many terms a sum has; anything else is one.

@@ -82,11 +82,24 @@ impl Undeformed {
         }
         let mut result = Polynomial::zero();
         for (small, sum) in groups {
-            let parts = self.of(arena, &sum);
-            let sum = if parts.vanishes() { parts.change } else { sum };
+            let sum = if self.at_rest(arena, &sum).is_zero() { self.of(arena, &sum).change } else { sum };
             result.add_product(&Polynomial::monomial(small), &sum, &Rational::ONE);
         }
         result
+    }
+
+    /// The value at `phi = 1` alone: changes of high powers are long.
+    fn at_rest(&mut self, arena: &mut Arena, form: &Polynomial) -> Polynomial {
+        let mut sum = Polynomial::zero();
+        for (monomial, c) in form.terms() {
+            let factors = self.telescoped(monomial).into_iter();
+            let one = Polynomial::constant(Rational::ONE);
+            sum.add_scaled(
+                &factors.fold(one, |product, atom| product.mul(&self.atom(arena, atom).at_rest)),
+                c,
+            );
+        }
+        sum
     }
 
     /// A polynomial, term by term.
@@ -102,9 +115,7 @@ impl Undeformed {
 
     /// `x y z - x0 y0 z0 = (x - x0) y z + x0 (y - y0) z + x0 y0 (z - z0)`
     fn product(&mut self, arena: &mut Arena, monomial: &[Expr]) -> Counted {
-        let mut atoms = monomial.to_vec();
-        let last = self.rank.len();
-        atoms.sort_by_key(|atom| self.rank.get(atom).copied().unwrap_or(last));
+        let atoms = self.telescoped(monomial);
         let mut before = Polynomial::constant(Rational::ONE);
         let mut change = Polynomial::zero();
         for (k, atom) in atoms.iter().enumerate() {
@@ -114,6 +125,14 @@ impl Undeformed {
             before = before.mul(&part.at_rest);
         }
         Counted { at_rest: before, change }
+    }
+
+    /// The atoms in the order of telescoping.
+    fn telescoped(&self, monomial: &[Expr]) -> Vec<Expr> {
+        let mut atoms = monomial.to_vec();
+        let last = self.rank.len();
+        atoms.sort_by_key(|atom| self.rank.get(atom).copied().unwrap_or(last));
+        atoms
     }
 
     fn atom(&mut self, arena: &mut Arena, atom: Expr) -> Counted {

@@ -88,13 +88,19 @@ impl Form {
             }
             _ => {}
         }
-        let even = matches!(function, Function::Cos | Function::Cosh | Function::Abs);
-        let odd = matches!(function, Function::Sin | Function::Sinh | Function::Tan | Function::Tanh);
-        let flipped = (even || odd) && self.terms.values().next().is_some_and(Rational::is_negative);
+        let turns = function.is_even() || function.is_odd();
+        let flipped = turns && self.terms.values().next().is_some_and(Rational::is_negative);
         let argument = if flipped { self.scaled(&Rational::MINUS_ONE) } else { self };
         let argument = through_traces(arena, n, argument).expression(arena, n);
         let value = arena.apply(function, argument);
-        let sign = if flipped && odd { Rational::MINUS_ONE } else { Rational::ONE };
+        let sign = if flipped && function.is_odd() { Rational::MINUS_ONE } else { Rational::ONE };
+        // The form of an expression may have another sign than the expression, which an odd function pulls out again.
+        let (value, sign) = match arena.node(value) {
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                (terms[0].0, &sign * &terms[0].1)
+            }
+            _ => (value, sign),
+        };
         match arena.node(value) {
             Node::Function(..) => Self::factor(n, value, 1, sign),
             // A known value, or what an inverse function left.

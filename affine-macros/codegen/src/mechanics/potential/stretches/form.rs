@@ -71,10 +71,6 @@ impl Form {
         form
     }
 
-    pub(super) fn is_zero(&self) -> bool {
-        self.terms.is_empty()
-    }
-
     pub(super) fn add(&mut self, key: Key, coefficient: &Rational) {
         let held = self.terms.entry(key).or_insert(Rational::ZERO);
         *held = &*held + coefficient;
