@@ -131,6 +131,11 @@ fn what_is_divided_by_and_vanishes_everywhere_is_refused() {
         (2, "1/(1 - q) + 1/(q - 1)"),
         (3, "(I1 + q)^16 - (q + I1)^12*(q + I1)^4"),
         (2, "tr((G - 1)^2) - tr(G*G) + 2*tr(G) - 2"),
+        (2, "I1 - G[1,1] - G[2,2]"),
+        (3, "I1 - Ct[1,1] - Ct[2,2] - Ct[3,3]"),
+        (2, "tr(phi)^2 - tr(phi^2) - 2*det"),
+        (2, "G[1,1]*G[2,2] - G[1,2]^2 - D^4"),
+        (3, "G[1,2] - phi[1,1]*phi[1,2] - phi[2,1]*phi[2,2] - phi[3,1]*phi[3,2]"),
     ] {
         for potential in [
             format!("I1 + q^2/({divisor})"),
@@ -161,6 +166,10 @@ fn what_is_divided_by_and_vanishes_somewhere_is_left_to_the_run() {
         (2, "abs(c) - c"),
         (2, "sqrt(c^2 + 1)*sqrt(c + 3) + sqrt((c^2 + 1)*(c + 3))"),
         (2, "tan(q) - tanh(q)"),
+        (3, "I1 - G[1,1] - G[2,2]"),
+        (2, "phi[1,1] - phi[2,2]"),
+        (2, "G[1,1] - phi[1,1]^2 - phi[1,2]^2"),
+        (2, "G[1,2] - Ct[1,2]"),
         // Multiples of the primes of the generator.
         (2, "4611686018427369527*q"),
         (2, "q/4611686018427369527"),
