@@ -7,6 +7,8 @@ mod centre;
 mod collapse;
 #[path = "domain/energies.rs"]
 mod energies;
+#[path = "domain/far_away.rs"]
+mod far_away;
 #[path = "domain/listed.rs"]
 mod listed;
 #[path = "domain/singular.rs"]

@@ -152,17 +152,19 @@ impl Point<'_> {
     /// The energy has a value here, so that every guard says so.
     fn domain(&self, mistakes: &mut Mistakes) {
         let Some(domain) = &self.case.model.point.domain else { return };
-        let values = self.run(&domain.program, Reads::Point);
-        for (k, guard) in domain.guards.iter().enumerate() {
-            let value = values[&format!("guard_{}", k + 1)].0;
-            let holds = match guard.bound {
-                Bound::Positive => value > 0.0,
-                Bound::NotNegative => value >= 0.0,
-                Bound::NotZero => value != 0.0,
-                Bound::Angle => true,
-            };
-            if !holds {
-                mistakes.push(format!("{} of {}: {value:e}", guard.argument, guard.part));
+        for program in [&domain.program].into_iter().chain(&domain.far_away) {
+            let values = self.run(program, Reads::Point);
+            for (k, guard) in domain.guards.iter().enumerate() {
+                let value = values[&format!("guard_{}", k + 1)].0;
+                let holds = match guard.bound {
+                    Bound::Positive => value > 0.0,
+                    Bound::NotNegative => value >= 0.0,
+                    Bound::NotZero => value != 0.0,
+                    Bound::Angle => true,
+                };
+                if !holds {
+                    mistakes.push(format!("{} of {}: {value:e}", guard.argument, guard.part));
+                }
             }
         }
     }

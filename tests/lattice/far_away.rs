@@ -24,6 +24,7 @@ models! { 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1):
     Shear3 = neo_hookean(1);
     Logarithm3 = ln(tr(G)) - 2*q;
     Places3 = exp(-1*q1) + exp(-1*q2) + exp(-1*q3);
+    Quotient3 = tr(G^2)/tr(G)^2;
 }
 
 models! { 3, kinetic(dalembert = 0.8):
@@ -78,6 +79,7 @@ fn energies_keep_their_digits_far_away() {
     assert_energy(&Shear3, |mean, q| unit_trace(mean, q) - 3.0);
     assert_energy(&Logarithm3, |mean, q| unit_trace(mean, q).ln());
     assert_energy(&Places3, |_, q| q.iter().map(|q| (-q).exp()).sum());
+    assert_energy(&Quotient3, |mean, q| unit_trace(2.0 * mean, &(q * 2.0)) / unit_trace(mean, q).powi(2));
     assert_energy(&DalembertGas3, |mean, _| 0.5 * (-2.0 * mean).exp());
     assert_energy(&DalembertShear3, unit_trace);
     assert_energy(&Inverse2, |mean, _| (-2.0 * mean).exp());

@@ -1,9 +1,10 @@
 //! Where the potential has a value.
 
 use crate::algebra::bind::Constants;
-use crate::algebra::{Arena, Expr};
+use crate::algebra::{Arena, Expr, Polynomial};
 use crate::ir::Program;
 use crate::mechanics::charts::Chart;
+use crate::mechanics::metric::Definitions;
 use crate::mechanics::potential::{Bound, Guard, Potential};
 use crate::optimise::Batch;
 use crate::symbol::Quantity;
@@ -16,6 +17,8 @@ pub struct Domain {
     pub guards: Vec<Guard>,
     /// Point -> their values.
     pub program: Program,
+    /// The same far from the undeformed state, where that differs.
+    pub far_away: Option<Program>,
 }
 
 impl Domain {
@@ -39,8 +42,12 @@ pub(super) fn domain(
     inputs: &[Expr],
 ) -> Option<Domain> {
     let potential = potential?;
-    let (values, shared) = potential.domain_at_a_point(arena, chart)?;
-    let batch = Batch { shared, results: numbered(Quantity::Guard, values).collect(), ..Batch::default() };
-    let program = program(arena, &batch, coefficients, inputs);
-    Some(Domain { guards: potential.domain().to_vec(), program })
+    let near = potential.domain_at_a_point(arena, chart)?;
+    let far_away = potential.domain_far_away(arena, chart);
+    let mut program = |(values, shared): (Vec<Polynomial>, Definitions)| {
+        let results = numbered(Quantity::Guard, values).collect();
+        program(arena, &Batch { shared, results, ..Batch::default() }, coefficients, inputs)
+    };
+    let (program, far_away) = (program(near), far_away.map(program));
+    Some(Domain { guards: potential.domain().to_vec(), program, far_away })
 }

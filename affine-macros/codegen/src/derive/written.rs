@@ -128,7 +128,7 @@ written! {
     Methods { two_polar, taylor, splitting, tangent, second_order, packed, unconstrained; }
     Variational { program; }
     VelocitySide { legendre, kinetic_energy; }
-    Domain { program; guards }
+    Domain { program, far_away; guards }
     Equations { dependent, program; groups }
     MixedMasses { momentum, velocity; }
     Regularity { blocks; positive }

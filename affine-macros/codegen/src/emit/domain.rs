@@ -4,13 +4,14 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 
 use crate::derive::Domain;
+use crate::ir::Program;
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
 use super::names::variant;
 use super::number::Number;
 use super::pattern::time;
-use super::point::at_point;
+use super::point::{at_point, by_distance};
 
 /// The functions of the state that keep their sign, in the description of the model.
 pub(super) fn guards(context: &Context) -> Vec<TokenStream> {
@@ -38,18 +39,22 @@ pub(super) fn angles(context: &Context) -> Vec<TokenStream> {
 pub(super) fn values(context: &Context) -> TokenStream {
     let Some(domain) = &context.model.point.domain else { return TokenStream::new() };
     let rt = &context.names.rt;
-    let program = &domain.program;
-    let (time, inward) = (time(program), context.inward(Coefficients::Own));
-    let (Body { lets, results: values }, reads) = at_point(context, program, Number::Double);
-    let (point, inward) = match reads {
-        true => (quote!(point), inward),
+    let time = time(&domain.program);
+    let values = |program: &Program| {
+        let (Body { lets, results }, reads) = at_point(context, program, Number::Double);
+        (quote!(#lets #(each(#results);)*), reads)
+    };
+    let (near, reads) = values(&domain.program);
+    let (far_away, _) = domain.far_away.as_ref().map(values).unzip();
+    let (point, inward) = match reads || far_away.is_some() {
+        true => (quote!(point), context.inward(Coefficients::Own)),
         false => (quote!(_point), TokenStream::new()),
     };
+    let values = by_distance(context, near, far_away);
     quote! {
         fn domain(&self, #time: #rt::f64, #point: &Self::Point<#rt::f64>, each: &mut dyn ::core::ops::FnMut(#rt::f64)) {
             #inward
-            #lets
-            #(each(#values);)*
+            #values
         }
     }
 }

@@ -13,7 +13,9 @@ use super::mixed;
 use super::number::{Number, number};
 use super::parametric::{Evaluation, Method};
 use super::pattern::{components, entries, in_rows, list, pattern, table, time};
-use super::point::{Moving, at_point, bind_components, group_of_point, is_vector, moving, wrapper};
+use super::point::{
+    Moving, at_point, bind_components, by_distance, group_of_point, is_vector, moving, wrapper,
+};
 
 /// The methods that do not reduce.
 pub(super) fn methods(context: &Context) -> Vec<Method> {
@@ -131,19 +133,8 @@ fn hamiltonian(context: &Context) -> TokenStream {
     let inward = context.inward(Coefficients::Given);
     let programs = [program].into_iter().chain(&context.model.point.hamiltonian_far_away);
     let Evaluation { name, parameter } = Evaluation::of_points(context, "hamiltonian", programs);
-    let value = match &context.model.point.hamiltonian_far_away {
-        None => near,
-        Some(program) => {
-            let far_away = energy(program);
-            quote! {
-                if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
-                    #far_away
-                } else {
-                    #near
-                }
-            }
-        }
-    };
+    let far_away = context.model.point.hamiltonian_far_away.as_ref().map(energy);
+    let value = by_distance(context, near, far_away);
     quote! {
         fn #name<#t: #rt::Real>(&self, #parameter #time: #t, point: &Self::Point<#t>) -> #t {
             #inward

@@ -68,6 +68,22 @@ pub(super) fn moving(
     Moving { lets, reads_phi: inverts || placement.is_some() }
 }
 
+/// What is computed at `point`: in another way far from the undeformed state, where there is one.
+pub(super) fn by_distance(
+    context: &Context,
+    near: TokenStream,
+    far_away: Option<TokenStream>,
+) -> TokenStream {
+    let (rt, Some(far_away)) = (&context.names.rt, far_away) else { return near };
+    quote! {
+        if #rt::far_from_undeformed(#rt::Phase::phi(point)) {
+            #far_away
+        } else {
+            #near
+        }
+    }
+}
+
 /// Wrapper of a vector or a matrix in the components of a frame.
 pub(super) fn wrapper(context: &Context, frame: Frame) -> TokenStream {
     let rt = &context.names.rt;

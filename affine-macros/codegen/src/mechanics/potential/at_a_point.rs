@@ -1,6 +1,8 @@
 //! The value of a potential at a point, without cancellation near the undeformed state; and far from it, through `D` and the
 //! isochoric part of the placement.
 
+use std::iter::once;
+
 use crate::algebra::arena::Node;
 use crate::algebra::fault::never_missing;
 use crate::algebra::ring::{dot, trace, upper};
@@ -40,42 +42,66 @@ impl Potential {
     }
 
     /// `U` for evaluation far from the undeformed state, with what it shares; `q`, `q_a` and `D` are inputs. `None` where
-    /// [`energy_at_a_point`](Self::energy_at_a_point) is as good there: it is not with exponentials of logarithms, nor with
-    /// logarithms that `q` is the opposite of.
+    /// [`energy_at_a_point`](Self::energy_at_a_point) is as good there.
     pub fn energy_far_away(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Definitions)> {
         let (value, sums) = self.far_away(arena, self.energy)?;
-        let d = arena.symbol(Quantity::Dilatation);
-        let inverse = arena.pow(d, -1)?;
-        let mut shared = scaled::definitions(arena, chart, inverse);
-        shared.extend(sums);
-        Some((value, shared))
+        Some((value, with_unit_part(arena, chart, sums)))
+    }
+
+    /// The same for the functions of the domain: of each the sign matters, as that of a divisor.
+    pub fn domain_far_away(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+    ) -> Option<(Vec<Polynomial>, Definitions)> {
+        let differs = self.domain.iter().any(|guard| {
+            // No constant keeps its sign alone.
+            let divided = arena.reciprocal(guard.value);
+            differs_far_away(arena, divided)
+        });
+        if !differs {
+            return None;
+        }
+        let (values, sums) = self.through_unit_part(arena, self.domain.iter().map(|guard| guard.value))?;
+        Some((values, with_unit_part(arena, chart, sums)))
     }
 
     /// A form of the energy through `D` and functions of `Psi`, `phi = D Psi`, and the sums that it shares; `None` where what is
     /// counted from the undeformed state is as good far from it.
     pub(super) fn far_away(&self, arena: &mut Arena, energy: Expr) -> Option<(Polynomial, Definitions)> {
-        let q = Base::MeanLogStretch.symbol(arena);
-        let exponential =
-            |function, of: Expr| function == Function::Exp && multiple_of_logarithm(arena, of).is_some();
-        let logarithm = |function, _| function == Function::Ln;
-        let differs = applies(arena, energy, &exponential)
-            || applies(arena, energy, &logarithm) && arena.any_symbol(energy, &mut |symbol| symbol == q);
-        if !differs {
+        if !differs_far_away(arena, energy) {
             return None;
         }
+        let (mut values, sums) = self.through_unit_part(arena, once(energy))?;
+        Some((values.pop()?, sums))
+    }
+
+    /// Functions of the placement, of `x` and of the time through `D` and functions of `Psi`, and the sums that they share.
+    fn through_unit_part(
+        &self,
+        arena: &mut Arena,
+        values: impl Iterator<Item = Expr>,
+    ) -> Option<(Vec<Polynomial>, Definitions)> {
         let d = arena.symbol(Quantity::Dilatation);
-        let energy = exponential_of_dilatation(arena, energy);
         let scaled = scaled_bases(arena, self.dim, d);
-        let energy = arena.substitute(energy, &listed(&scaled))?;
         let mut sums = Sums::default();
-        let named = sums.named(arena, energy);
+        let (mut whole, mut named) = (Vec::new(), Vec::new());
+        for value in values {
+            let value = exponential_of_dilatation(arena, value);
+            let value = arena.substitute(value, &listed(&scaled))?;
+            whole.push(value);
+            named.push(sums.named(arena, value));
+        }
+        let mut sizes = Sizes::default();
+        let is_short = whole.iter().all(|value| sizes.of_largest_part(arena, *value) <= MOST_TERMS);
+        let collected = |arena: &mut Arena, value: &Expr| collected(arena, *value, d);
         // A power of `D` in a sum may have to cancel one beside it.
         let scaled = sums.known().iter().any(|(_, sum)| arena.any_symbol(*sum, &mut |symbol| symbol == d));
-        if scaled && Sizes::default().of_largest_part(arena, energy) <= MOST_TERMS {
-            return Some((collected(arena, energy, d), Definitions::new()));
+        if scaled && is_short {
+            return Some((whole.iter().map(|value| collected(arena, value)).collect(), Definitions::new()));
         }
-        let shared = sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, *sum, d))).collect();
-        Some((collected(arena, named, d), shared))
+        let shared = sums.known().iter().map(|(symbol, sum)| (*symbol, collected(arena, sum))).collect();
+        Some((named.iter().map(|value| collected(arena, value)).collect(), shared))
     }
 
     /// The same of any functions of the placement, of `x` and of the time.
@@ -133,8 +159,41 @@ fn strain_traces(arena: &mut Arena, chart: &Chart) -> (Definitions, [Polynomial;
     (shared, [trace, of_square])
 }
 
-/// Does it contain a function of an argument that is `wanted`?
-fn applies(arena: &Arena, expr: Expr, wanted: &dyn Fn(Function, Expr) -> bool) -> bool {
-    let own = matches!(*arena.node(expr), Node::Function(function, argument) if wanted(function, argument));
-    own || arena.any_part(expr, &mut |part| applies(arena, part, wanted))
+/// What functions of `Psi` read, and the sums of these.
+fn with_unit_part(arena: &mut Arena, chart: &Chart, sums: Definitions) -> Definitions {
+    let d = arena.symbol(Quantity::Dilatation);
+    // A symbol is not the number zero.
+    let inverse = arena.reciprocal(d);
+    [scaled::definitions(arena, chart, inverse), sums].concat()
+}
+
+/// Does a function lose its digits far from the undeformed state where it is counted from that? It does with exponentials of
+/// logarithms, with logarithms that `q` is the opposite of, with traces over what vanishes with them, and with sums of traces
+/// without a constant that are raised to a power.
+fn differs_far_away(arena: &mut Arena, value: Expr) -> bool {
+    let mut sums = Sums::default();
+    sums.named(arena, value);
+    let arena = &*arena;
+    let has = |of: Expr, wanted: &[Quantity]| {
+        arena.any_symbol(of, &mut |symbol| arena.quantity(symbol).is_some_and(|of| wanted.contains(&of)))
+    };
+    let scaled = [Quantity::Trace, Quantity::Green, Quantity::Finger, Quantity::Placement];
+    let logarithm = contains(arena, value, &|node| matches!(node, Node::Function(Function::Ln, _)));
+    let loses = |node: &Node| match node {
+        Node::Function(Function::Exp, of) => multiple_of_logarithm(arena, *of).is_some(),
+        Node::Product(factors) => {
+            factors.iter().any(|(base, k)| *k > 0 && has(*base, &[Quantity::Trace]))
+                && factors.iter().any(|(base, k)| *k < 0 && has(*base, &scaled))
+        }
+        _ => false,
+    };
+    let vanishes = |sum: Expr| matches!(arena.node(sum), Node::Sum(constant, _) if constant.is_zero());
+    contains(arena, value, &loses)
+        || logarithm && has(value, &[Quantity::MeanLogStretch])
+        || sums.known().iter().any(|(_, sum)| vanishes(*sum) && has(*sum, &[Quantity::Trace]))
+}
+
+/// Is it or a part of it `wanted`?
+fn contains(arena: &Arena, expr: Expr, wanted: &dyn Fn(&Node) -> bool) -> bool {
+    wanted(arena.node(expr)) || arena.any_part(expr, &mut |part| contains(arena, part, wanted))
 }
