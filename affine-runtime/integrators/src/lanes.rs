@@ -122,8 +122,8 @@ impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
     #[inline(always)]
     fn fma(mut self, factor: Self, term: Self) -> Self {
         for lane in 0..LANES {
-            let [own, factor, term] = [self.0[lane], factor.0[lane], term.0[lane]].map(S::from_f64);
-            self.0[lane] = own.fma(factor, term).to_f64();
+            let own = S::from_f64(self.0[lane]);
+            self.0[lane] = own.fma(S::from_f64(factor.0[lane]), S::from_f64(term.0[lane])).to_f64();
         }
         self
     }

@@ -1,4 +1,7 @@
 //! Vectors of four doubles, as processors have them.
+//!
+//! No array is mapped here: `map` of an array is a call in builds whose parts are not optimised together, and a call leaves the
+//! vectors of its caller.
 
 use affine_core::__private::Vectors;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -14,8 +17,7 @@ impl Vectors for Baseline {
     const IS_LAST_RESORT: bool = cfg!(all(feature = "std", target_arch = "x86_64"));
     #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
-        let [[one, by], [other, with]] = [one, other].map(|factors| factors.map(f64x4::from));
-        one.mul_add(by, other * with).into()
+        f64x4::from(one[0]).mul_add(f64x4::from(one[1]), f64x4::from(other[0]) * f64x4::from(other[1])).into()
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
@@ -67,7 +69,7 @@ impl<const FUSED: bool> Vectors for Avx2<FUSED> {
     }
     #[inline(always)]
     fn plus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        let (sum, left, right) = (pulp::cast(sum), pulp::cast(left), pulp::cast(right));
         pulp::cast(if const { FUSED || IS_FUSED } {
             self.0.mul_add_f64x4(left, right, sum)
         } else {
@@ -83,12 +85,12 @@ impl<const FUSED: bool> Vectors for Avx2<FUSED> {
         if const { !FUSED } {
             return f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(sum)).into();
         }
-        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        let (sum, left, right) = (pulp::cast(sum), pulp::cast(left), pulp::cast(right));
         pulp::cast(self.0.mul_add_f64x2(left, right, sum))
     }
     #[inline(always)]
     fn minus_product(self, sum: [f64; 4], left: [f64; 4], right: [f64; 4]) -> [f64; 4] {
-        let [sum, left, right] = [sum, left, right].map(pulp::cast);
+        let (sum, left, right) = (pulp::cast(sum), pulp::cast(left), pulp::cast(right));
         pulp::cast(if const { FUSED || IS_FUSED } {
             self.0.negate_mul_add_f64x4(left, right, sum)
         } else {
