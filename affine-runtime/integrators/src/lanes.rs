@@ -11,7 +11,8 @@
 //! those of the processor are fused.
 //!
 //! Lanes are arrays, and operations loops over them, which the compiler turns into the vectors of the function that it
-//! compiles: the same type serves a target's own vectors and those found at run time.
+//! compiles: the same type serves a target's own vectors and those found at run time. No array is mapped, since
+//! `map` of an array is a call in builds whose parts are not optimised together.
 
 mod elementary;
 #[cfg(feature = "std")]
@@ -75,8 +76,12 @@ impl<S: InLane, const LANES: usize> Lanes for Several<S, LANES> {
     const LANES: usize = LANES;
 
     #[inline(always)]
-    fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
-        Self(core::array::from_fn(lane), PhantomData).each(|lane| lane)
+    fn from_lanes(mut lane: impl FnMut(usize) -> f64) -> Self {
+        let mut lanes = Self([0.0; LANES], PhantomData);
+        for (index, own) in lanes.0.iter_mut().enumerate() {
+            *own = S::from_f64(lane(index)).to_f64();
+        }
+        lanes
     }
 
     #[inline(always)]

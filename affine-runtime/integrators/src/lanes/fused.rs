@@ -48,7 +48,7 @@ impl<S: Real> Scalar for Fused<S> {
     }
     #[inline(always)]
     fn fma(self, factor: Self, term: Self) -> Self {
-        let [own, factor, term] = [self, factor, term].map(Real::to_f64);
+        let (own, factor, term) = (self.to_f64(), factor.to_f64(), term.to_f64());
         #[cfg(feature = "std")]
         return Self::from_f64(own.mul_add(factor, term));
         #[cfg(not(feature = "std"))]
