@@ -1,7 +1,7 @@
 //! Numbers with a derivative.
 
 use core::cmp::Ordering;
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::{One, Zero};
 
@@ -81,22 +81,25 @@ impl<T: Scalar> Neg for Dual<T> {
     }
 }
 
+/// `+=` and its like of a type of numbers, by its `+` and its like.
 macro_rules! assigning {
-    ($($trait:ident $method:ident $operator:tt;)*) => { $(
-        impl<T: Scalar> $trait for Dual<T> {
+    (@each [$($parameter:ident)?] $number:ty, $trait:ident $method:ident $operator:tt) => {
+        impl$(<$parameter: $crate::scalar::Scalar>)? core::ops::$trait for $number {
             fn $method(&mut self, other: Self) {
                 *self = *self $operator other;
             }
         }
-    )* };
+    };
+    ([$($parameter:ident)?] $number:ty) => {
+        $crate::dual::assigning!(@each [$($parameter)?] $number, AddAssign add_assign +);
+        $crate::dual::assigning!(@each [$($parameter)?] $number, SubAssign sub_assign -);
+        $crate::dual::assigning!(@each [$($parameter)?] $number, MulAssign mul_assign *);
+        $crate::dual::assigning!(@each [$($parameter)?] $number, DivAssign div_assign /);
+    };
 }
+pub(crate) use assigning;
 
-assigning! {
-    AddAssign add_assign +;
-    SubAssign sub_assign -;
-    MulAssign mul_assign *;
-    DivAssign div_assign /;
-}
+assigning!([T] Dual<T>);
 
 impl<T: Scalar> Zero for Dual<T> {
     fn zero() -> Self {

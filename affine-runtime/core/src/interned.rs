@@ -89,7 +89,7 @@ mod reading {
 
         /// What is written as its numbers are.
         pub trait Write {
-            /// Writes it.
+            /// Writes a value, each number in it likewise.
             ///
             /// # Errors
             /// Those of the serializer.

@@ -2,10 +2,11 @@
 
 use core::cmp::Ordering;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::{One, Zero};
 
+use crate::dual::assigning;
 use crate::scalar::{Real, Scalar};
 
 /// What an operation or function of the runtime may be off by, relative to its value.
@@ -132,22 +133,7 @@ impl Neg for Interval {
     }
 }
 
-macro_rules! assigning {
-    ($($trait:ident $method:ident $operator:tt;)*) => { $(
-        impl $trait for Interval {
-            fn $method(&mut self, other: Self) {
-                *self = *self $operator other;
-            }
-        }
-    )* };
-}
-
-assigning! {
-    AddAssign add_assign +;
-    SubAssign sub_assign -;
-    MulAssign mul_assign *;
-    DivAssign div_assign /;
-}
+assigning!([] Interval);
 
 impl Zero for Interval {
     fn zero() -> Self {
