@@ -231,7 +231,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self.checked()?;
         self.plan.output = Output::At(Vec::new());
         let mut ends = Vec::new();
-        self.fold_in::<T, ()>(|_, _| (), |(), _, _| (), |body| ends.push(body.end))?;
+        let chunk = AT_ONCE * threads();
+        self.chunks::<T, (), Setting>(chunk, &|_, _| (), &|(), _, _| (), |parts| {
+            ends.reserve(parts.iter().map(Vec::len).sum());
+            ends.extend(parts.into_iter().flatten().map(|body| body.end));
+            Ok(())
+        })?;
         Ok(ends)
     }
 
@@ -276,20 +281,6 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         self,
         begin: impl Fn(u64, &H) -> A + Sync,
         add: impl Fn(&mut A, f64, &PointOf<N, H>) + Sync,
-        each: impl FnMut(Member<PointOf<N, H>, A>),
-    ) -> core::result::Result<(), Setting>
-    where
-        H: Sync,
-        H::Model: InLanes<N>,
-        PointOf<N, H>: Send + Sync,
-    {
-        self.fold_in::<F64x8, A>(begin, add, each)
-    }
-
-    fn fold_in<T: Lanes, A: Send>(
-        self,
-        begin: impl Fn(u64, &H) -> A + Sync,
-        add: impl Fn(&mut A, f64, &PointOf<N, H>) + Sync,
         mut each: impl FnMut(Member<PointOf<N, H>, A>),
     ) -> core::result::Result<(), Setting>
     where
@@ -298,19 +289,19 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         PointOf<N, H>: Send + Sync,
     {
         let chunk = AT_ONCE * threads();
-        self.chunks::<T, A, Setting>(chunk, &begin, &add, |bodies| {
-            bodies.into_iter().for_each(&mut each);
+        self.chunks::<F64x8, A, Setting>(chunk, &begin, &add, |parts| {
+            parts.into_iter().flatten().for_each(&mut each);
             Ok(())
         })
     }
 
-    /// Runs so many bodies after the other.
+    /// Runs so many bodies after the other; each time with all of them, in parts.
     fn chunks<T: Lanes, A: Send, E: From<Setting>>(
         self,
         chunk: usize,
         begin: &(dyn Fn(u64, &H) -> A + Sync),
         add: &(dyn Fn(&mut A, f64, &PointOf<N, H>) + Sync),
-        mut each: impl FnMut(Vec<Member<PointOf<N, H>, A>>) -> core::result::Result<(), E>,
+        mut each: impl FnMut(Vec<Vec<Member<PointOf<N, H>, A>>>) -> core::result::Result<(), E>,
     ) -> core::result::Result<(), E>
     where
         H: Sync,
@@ -333,12 +324,14 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
             add,
             tell: &|| progress(done.fetch_add(1, Ordering::Relaxed) + 1),
         };
+        let mut bodies = Vec::new();
         loop {
-            let starts: Vec<_> = starts.by_ref().take(chunk).collect();
-            if starts.is_empty() {
+            bodies.clear();
+            bodies.extend(starts.by_ref().take(chunk));
+            if bodies.is_empty() {
                 return Ok(());
             }
-            each(in_parts(&starts, T::LANES, |part| asked.of::<T>(part)))?;
+            each(in_parts(&bodies, T::LANES, |part| asked.of::<T>(part)))?;
         }
     }
 }
@@ -364,8 +357,8 @@ fn threads() -> usize {
 
 /// One part after the other: there is one.
 #[cfg(not(feature = "parallel"))]
-fn in_parts<S: Sync, B: Send>(starts: &[S], _lanes: usize, run: impl Fn(&[S]) -> Vec<B> + Sync) -> Vec<B> {
-    run(starts)
+fn in_parts<S: Sync, B: Send>(starts: &[S], _lanes: usize, run: impl Fn(&[S]) -> B + Sync) -> Vec<B> {
+    vec![run(starts)]
 }
 
 /// Parts of each thread of the pool, of which one may take longer than another.
@@ -374,11 +367,11 @@ const PARTS: usize = 4;
 
 /// Parts on all threads of the pool, each of whole lanes.
 #[cfg(feature = "parallel")]
-fn in_parts<S: Sync, B: Send>(starts: &[S], lanes: usize, run: impl Fn(&[S]) -> Vec<B> + Sync) -> Vec<B> {
+fn in_parts<S: Sync, B: Send>(starts: &[S], lanes: usize, run: impl Fn(&[S]) -> B + Sync) -> Vec<B> {
     use rayon::prelude::*;
     let parts = if threads() == 1 { 1 } else { PARTS * threads() };
     let size = starts.len().div_ceil(parts).next_multiple_of(lanes);
-    starts.par_chunks(size).flat_map_iter(&run).collect()
+    starts.par_chunks(size).map(&run).collect()
 }
 
 impl<const N: usize, H: Handle<N>> fmt::Debug for Ensemble<'_, N, H> {

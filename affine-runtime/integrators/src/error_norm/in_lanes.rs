@@ -72,16 +72,14 @@ impl<T: Lanes> NormInLanes<T> {
     /// The largest size, over the scales of the groups, of what moves a state at the rates `change` to `end`.
     #[inline(always)]
     pub(crate) fn rate<V: Simd, S: StateVector<T>>(&self, simd: V, change: &S, y: &S, end: &S) -> T {
-        let forever = T::constant(f64::INFINITY, 0.0);
-        let (mut largest, mut start) = (T::zero(), 0);
-        for (g, group) in self.layout.groups.iter().enumerate() {
+        let (mut measured, mut start) = ([Measured::nothing(); GROUPS], 0);
+        for (own, group) in measured.iter_mut().zip(self.layout.groups) {
             let range = start..start + group.len;
             start = range.end;
-            let value = norm(simd, change.as_ref(), range.clone());
-            let states = (forever, y.as_ref(), end.as_ref());
-            largest = self.larger(simd, largest, (g, group, range), value, states);
+            own.value = norm(simd, change.as_ref(), range.clone());
+            own.sizes = [norm(simd, y.as_ref(), range.clone()), norm(simd, end.as_ref(), range)];
         }
-        largest
+        self.largest(simd, T::constant(f64::INFINITY, 0.0), self.layout.groups, &measured)
     }
 
     /// Puts the norm of another body into a lane.
@@ -91,33 +89,35 @@ impl<T: Lanes> NormInLanes<T> {
         }
     }
 
-    /// The larger of `largest` and of `value` over the scale of group `g` for steps of lengths `h`: a turn of the loop of
-    /// [`ErrorNorm::largest`].
+    /// The largest value over the scale of its group, for steps of lengths `h`: [`ErrorNorm::largest`].
     #[inline(always)]
-    pub(crate) fn larger<V: Simd>(
+    pub(crate) fn largest<V: Simd>(
         &self,
         simd: V,
-        mut largest: T,
-        (g, group, range): (usize, &Group, Range<usize>),
-        value: T,
-        (h, before, after): (T, &[T], &[T]),
+        h: T,
+        groups: &'static [Group],
+        measured: &[Measured<T>; GROUPS],
     ) -> T {
-        let (a, b) = match self.layout.measure(g, group) {
-            Measure::Nothing => return largest,
-            Measure::One => (T::one(), T::one()),
-            Measure::Position => (self.extent(simd, range.clone(), before), self.extent(simd, range, after)),
-            Measure::Size => (norm(simd, before, range.clone()), norm(simd, after, range)),
-        };
-        let inertia = self.inertia.get(g).copied().unwrap_or(T::zero());
-        for k in 0..parts::<V, T>() {
-            let (a, b, inertia) = (part(simd, &a, k), part(simd, &b, k), part(simd, &inertia, k));
-            let floor = simd.mul_f64s(simd.splat_f64s(PART_OF_DISPLACEMENT), inertia);
-            let floor = simd.div_f64s(floor, part(simd, &h, k));
-            let zero = simd.splat_f64s(0.0);
-            let floor = simd.select_f64s(simd.equal_f64s(inertia, zero), zero, floor);
-            let size = simd.select_f64s(simd.greater_than_or_equal_f64s(a, b), a, b);
-            let larger = relative(simd, (part(simd, &value, k), size, floor), part(simd, &largest, k));
-            set_part(simd, &mut largest, k, larger);
+        let mut largest = T::zero();
+        for (g, group) in groups.iter().enumerate().take(GROUPS) {
+            let [a, b] = match Measure::of(group) {
+                Measure::Nothing => continue,
+                Measure::One => [T::one(); 2],
+                Measure::Position => extents(groups, g, measured),
+                Measure::Size => measured[g].sizes,
+            };
+            for k in 0..parts::<V, T>() {
+                let (a, b) = (part(simd, &a, k), part(simd, &b, k));
+                let inertia = part(simd, &self.inertia[g], k);
+                let floor = simd.mul_f64s(simd.splat_f64s(PART_OF_DISPLACEMENT), inertia);
+                let floor = simd.div_f64s(floor, part(simd, &h, k));
+                let zero = simd.splat_f64s(0.0);
+                let floor = simd.select_f64s(simd.equal_f64s(inertia, zero), zero, floor);
+                let size = simd.select_f64s(simd.greater_than_or_equal_f64s(a, b), a, b);
+                let value = part(simd, &measured[g].value, k);
+                let larger = relative(simd, (value, size, floor), part(simd, &largest, k));
+                set_part(simd, &mut largest, k, larger);
+            }
         }
         largest
     }
@@ -129,6 +129,54 @@ impl<T: Lanes> NormInLanes<T> {
             Some((start, end)) if start != configuration.start => own + norm(simd, y, start..end),
             _ => own,
         }
+    }
+}
+
+/// A group of the states before and after a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measured<T> {
+    /// What is measured.
+    pub(crate) value: T,
+    /// Norms of the group before and after.
+    pub(crate) sizes: [T; 2],
+}
+
+impl<T: Lanes> Measured<T> {
+    #[inline(always)]
+    pub(crate) fn nothing() -> Self {
+        Self { value: T::zero(), sizes: [T::zero(); 2] }
+    }
+}
+
+/// Sizes of a position with that of the placement, if there is one.
+#[inline(always)]
+fn extents<T: Lanes>(groups: &[Group], position: usize, measured: &[Measured<T>; GROUPS]) -> [T; 2] {
+    let mut sizes = measured[position].sizes;
+    for (group, placement) in groups.iter().zip(measured) {
+        if group.quantity.is_placement() {
+            for (size, of_placement) in sizes.iter_mut().zip(placement.sizes) {
+                *size += of_placement;
+            }
+            break;
+        }
+    }
+    sizes
+}
+
+/// Norms of the groups of a state before and after a step, where the squares of one of them leave the range of numbers.
+#[cold]
+#[inline(never)]
+pub(crate) fn measure_again<V: Simd, T: Lanes>(
+    simd: V,
+    groups: &[Group],
+    [before, after]: [&[T]; 2],
+    measured: &mut [Measured<T>; GROUPS],
+) {
+    let mut start = 0;
+    for (own, group) in measured.iter_mut().zip(groups) {
+        let range = start..start + group.len;
+        start = range.end;
+        own.sizes = [norm(simd, before, range.clone()), norm(simd, after, range)];
     }
 }
 
@@ -149,62 +197,73 @@ fn relative<V: Simd>(
     simd.select_f64s(no_error, largest, larger)
 }
 
-/// Sums of squares of the components of several states, in the order of [`sum_of_squares`](super::sum_of_squares). No
-/// closures: those are not made part of the function that is compiled for the processor's vectors.
-pub(crate) struct Squares<V: Simd, const K: usize> {
-    /// Components that are summed by fours.
-    whole: usize,
-    fours: [[V::f64s; K]; 4],
-    rest: [[V::f64s; K]; 3],
-}
+/// Sums of squares of the components of several states, in the order of [`sum_of_squares`](super::sum_of_squares): first of
+/// whole fours, then of the rest. No closures: those are not made part of the function that is compiled for the processor's
+/// vectors.
+pub(crate) struct Squares<V: Simd, const K: usize>([[V::f64s; K]; 4]);
 
 impl<V: Simd, const K: usize> Squares<V, K> {
-    /// Of so many components.
     #[inline(always)]
-    pub(crate) fn new(simd: V, len: usize) -> Self {
-        let zero = [simd.splat_f64s(0.0); K];
-        Self { whole: len - len % 4, fours: [zero; 4], rest: [zero; 3] }
+    pub(crate) fn new(simd: V) -> Self {
+        Self([[simd.splat_f64s(0.0); K]; 4])
     }
 
-    /// Adds component `i` of each state.
+    /// Adds one of four components of each state. Which one is known where this is compiled, so that sums stay in registers.
     #[inline(always)]
-    pub(crate) fn add(&mut self, simd: V, i: usize, components: [V::f64s; K]) {
-        let sums = if i < self.whole { &mut self.fours[i % 4] } else { &mut self.rest[i - self.whole] };
-        for k in 0..K {
-            sums[k] = simd.add_f64s(sums[k], simd.mul_f64s(components[k], components[k]));
-        }
+    pub(crate) fn add(&mut self, simd: V, of_four: usize, components: [V::f64s; K]) {
+        self.0[of_four] = with_squares(simd, self.0[of_four], components);
     }
 
-    /// The sums.
+    /// The sums over the fours.
     #[inline(always)]
     pub(crate) fn sums(self, simd: V) -> [V::f64s; K] {
-        let [a, b, c, d] = self.fours;
+        let [a, b, c, d] = self.0;
         let mut sums = a;
         for k in 0..K {
             sums[k] = simd.add_f64s(simd.add_f64s(a[k], c[k]), simd.add_f64s(b[k], d[k]));
-            for rest in &self.rest {
-                sums[k] = simd.add_f64s(sums[k], rest[k]);
-            }
         }
         sums
     }
+}
+
+/// Sums with the square of one more component of each state.
+#[inline(always)]
+pub(crate) fn with_squares<V: Simd, const K: usize>(
+    simd: V,
+    mut sums: [V::f64s; K],
+    components: [V::f64s; K],
+) -> [V::f64s; K] {
+    for k in 0..K {
+        sums[k] = simd.add_f64s(sums[k], simd.mul_f64s(components[k], components[k]));
+    }
+    sums
+}
+
+/// Where squares are in the range in which they are summed as they are.
+#[inline(always)]
+pub(crate) fn are_in_range<V: Simd>(simd: V, squares: V::f64s) -> V::m64s {
+    let above = simd.greater_than_or_equal_f64s(squares, simd.splat_f64s(*IN_RANGE.start()));
+    simd.and_m64s(above, simd.less_than_or_equal_f64s(squares, simd.splat_f64s(*IN_RANGE.end())))
 }
 
 /// Euclidean norms.
 #[inline(always)]
 fn norm<V: Simd, T: Lanes>(simd: V, y: &[T], range: Range<usize>) -> T {
     let (mut squares, mut norms, mut doubt) = (T::zero(), T::zero(), simd.splat_f64s(0.0));
+    let (fours, rest) = y[range.clone()].as_chunks::<4>();
     for k in 0..parts::<V, T>() {
-        let components = &y[range.clone()];
-        let mut squared = Squares::<V, 1>::new(simd, components.len());
-        for (i, component) in components.iter().enumerate() {
-            squared.add(simd, i, [part(simd, component, k)]);
+        let mut squared = Squares::<V, 1>::new(simd);
+        for four in fours {
+            for (i, component) in four.iter().enumerate() {
+                squared.add(simd, i, [part(simd, component, k)]);
+            }
         }
-        let [sum] = squared.sums(simd);
-        let (least, most) = (simd.splat_f64s(*IN_RANGE.start()), simd.splat_f64s(*IN_RANGE.end()));
-        let above = simd.greater_than_or_equal_f64s(sum, least);
-        let in_range = simd.and_m64s(above, simd.less_than_or_equal_f64s(sum, most));
-        doubt = simd.select_f64s(in_range, doubt, simd.splat_f64s(1.0));
+        let mut sums = squared.sums(simd);
+        for component in rest {
+            sums = with_squares(simd, sums, [part(simd, component, k)]);
+        }
+        let [sum] = sums;
+        doubt = simd.select_f64s(are_in_range(simd, sum), doubt, simd.splat_f64s(1.0));
         set_part(simd, &mut squares, k, sum);
         set_part(simd, &mut norms, k, simd.sqrt_f64s(sum));
     }

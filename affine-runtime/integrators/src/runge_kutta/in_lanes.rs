@@ -3,23 +3,23 @@
 mod attempt;
 mod before;
 mod dense;
+mod end;
 
-use attempt::{AT_BEGIN, AT_END, Attempt, Slopes, combination};
+use attempt::{AT_BEGIN, AT_END, Attempt, Slopes};
 use before::Before;
 use pulp::{Simd, WithSimd};
 
 use super::dormand_prince_853::*;
 use super::field::STAGES;
-use super::pair::{DormandPrince853, E3};
+use super::pair::DormandPrince853;
 use super::start::Start;
 use super::step::Pair;
-use crate::error_norm::{NormInLanes, Squares};
+use crate::error_norm::{GROUPS as MEASURED, Measured, NormInLanes};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{in_lanes, part, parts, set_part};
 use crate::step_size::Controller;
 use crate::step_size::in_lanes::{Clocks, fate};
-use affine_core::__private::numerics::IN_RANGE;
 use affine_core::model::StateVector;
 
 /// Bodies in lanes: [`RungeKutta8`](super::RungeKutta8) of each, operation by operation, at its own time and with its own
@@ -32,6 +32,8 @@ pub struct RungeKutta8InLanes<T, S, F> {
     y: S,
     trial: S,
     stages: Slopes<S>,
+    /// Estimated errors of the last attempts over their lengths, and sizes.
+    measured: [Measured<T>; MEASURED],
     /// Where the last attempts began, if that is kept.
     before: Option<Before<T, S>>,
 }
@@ -53,6 +55,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
     /// [another](Self::aim) or the lane is given the next.
     pub fn new(f: F, t_end: f64, tolerance: f64, max_steps: u64) -> Self {
         const { assert!(T::LANES.is_multiple_of(8), "lanes fill the vectors of every processor") }
+        const { assert!(F::GROUPS.len() <= MEASURED, "all groups are measured") }
         Self {
             f,
             norm: NormInLanes::new(F::GROUPS),
@@ -65,6 +68,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
             y: S::zeros(),
             trial: S::zeros(),
             stages: [S::zeros(); STAGES + 1],
+            measured: [Measured::nothing(); MEASURED],
             before: None,
         }
     }
@@ -117,7 +121,10 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         }
         let is_a_last_resort = self.f.are_a_last_resort();
         let fates = in_lanes::<T, _>(Trial(self), is_a_last_resort);
-        (0..T::LANES).filter_map(move |lane| match fates.lane(lane) {
+        // Most steps are nobody's last, and all lanes are seen at once.
+        let are_under_way = fates.as_slice().iter().all(|fate| *fate == fate::UNDER_WAY);
+        let ended = if are_under_way { 0..0 } else { 0..T::LANES };
+        ended.filter_map(move |lane| match fates.lane(lane) {
             fate::UNDER_WAY => None,
             fate::ARRIVED => Some((lane, Fate::Arrived)),
             fate::LIMITED => Some((lane, Fate::Limited)),
@@ -132,7 +139,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
 
     #[inline(always)]
     fn step<V: Simd>(&mut self, simd: V) -> T {
-        let Self { f, y, trial, stages, clocks, .. } = self;
+        let Self { f, y, trial, stages, clocks, measured, .. } = self;
         let (t, end) = (clocks.t, clocks.end);
         let mut attempt = Attempt { f, t, end, h: end - t, y, stages, trial };
         attempt.stage(simd, NODES[0], &A2);
@@ -146,49 +153,10 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         attempt.stage(simd, NODES[8], &A10);
         attempt.stage(simd, NODES[9], &A11);
         attempt.stage(simd, NODES[10], &A12);
-        attempt.end(simd, &B);
+        let doubt = attempt.end(simd, measured);
         let h = attempt.h.abs();
-        let (error, doubt) = self.error(simd, h);
+        let error = h / T::constant(self.tolerance, 0.0) * self.norm.largest(simd, h, F::GROUPS, measured);
         self.turn(simd, error, doubt)
-    }
-
-    /// Estimated errors relative to the tolerance, of steps of these lengths; and 1 where squares leave the range of
-    /// numbers, so that a body has to be looked at alone.
-    #[inline(always)]
-    fn error<V: Simd>(&self, simd: V, h: T) -> (T, T) {
-        let (before, after) = (self.y.as_ref(), self.trial.as_ref());
-        let (mut largest, mut doubt, mut start) = (T::zero(), T::zero(), 0);
-        for (g, group) in F::GROUPS.iter().enumerate() {
-            let range = start..start + group.len;
-            start = range.end;
-            let mut value = T::zero();
-            for k in 0..parts::<V, T>() {
-                let zero = simd.splat_f64s(0.0);
-                let mut sizes = zero;
-                let mut squares = Squares::<V, 2>::new(simd, range.len());
-                for (i, component) in range.clone().enumerate() {
-                    let of_fifth = combination(simd, &self.stages, (component, k), &E5, E5.len());
-                    let of_third = combination(simd, &self.stages, (component, k), &E3, E3.len());
-                    sizes = simd.add_f64s(sizes, simd.abs_f64s(of_fifth));
-                    squares.add(simd, i, [of_fifth, of_third]);
-                }
-                let [fifth, third] = squares.sums(simd);
-                // As the pair has it.
-                let size = simd.add_f64s(fifth, simd.mul_f64s(simd.splat_f64s(0.01), third));
-                let error = simd.div_f64s(fifth, simd.sqrt_f64s(size));
-                let is_zero = simd.equal_f64s(fifth, zero);
-                set_part(simd, &mut value, k, simd.select_f64s(is_zero, zero, error));
-                let in_range = simd.and_m64s(
-                    simd.greater_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.start())),
-                    simd.less_than_or_equal_f64s(fifth, simd.splat_f64s(*IN_RANGE.end())),
-                );
-                let is_plain = simd.or_m64s(in_range, simd.equal_f64s(sizes, zero));
-                let before = part(simd, &doubt, k);
-                set_part(simd, &mut doubt, k, simd.select_f64s(is_plain, before, simd.splat_f64s(1.0)));
-            }
-            largest = self.norm.larger(simd, largest, (g, group, range), value, (h, before, after));
-        }
-        (h / T::constant(self.tolerance, 0.0) * largest, doubt)
     }
 
     /// Accepts the steps with errors of at most 1 whose slopes at the end are finite; what becomes of the lanes.

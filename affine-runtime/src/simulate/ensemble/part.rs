@@ -9,7 +9,7 @@ use crate::integrate::FusedArithmetic;
 use crate::lanes::Lanes;
 use crate::model::{Handle, Model};
 use crate::simulate::friction::{is_stiff, rate_of_friction};
-use crate::simulate::in_lanes::{EIGHT, has_fused_lanes, moving};
+use crate::simulate::in_lanes::{Bodies, EIGHT, has_fused_lanes, moving};
 use crate::simulate::layout::is_looked_after;
 use crate::simulate::method::Method;
 use crate::simulate::motion::PointOf;
@@ -75,11 +75,16 @@ where
         let recordings = trajectories.iter_mut().zip(numbers);
         let mut recordings: Vec<_> =
             recordings.map(|(trajectory, body)| body.map(|body| (body, record(body, trajectory)))).collect();
-        let mut fates = [Next::Step; EIGHT];
-        while recordings.iter().any(Option::is_some) {
-            fates.fill(Next::Step);
+        let mut moving = recordings.iter().flatten().count();
+        let every_step = self.within_steps || const { Bodies::<N, T, &H::Model>::are_looked_after() };
+        while moving > 0 {
+            let (mut fates, mut none_ends) = ([Next::Step; EIGHT], true);
             for (lane, fate) in watched.advance() {
                 fates[lane] = if fate == Fate::Arrived { Next::End } else { Next::Alone };
+                none_ends = false;
+            }
+            if none_ends && !every_step {
+                continue;
             }
             for lane in 0..EIGHT {
                 let Some((_, recording)) = &mut recordings[lane] else { continue };
@@ -98,7 +103,10 @@ where
                         watched.put(lane, &next);
                         recordings[lane] = Some((next.body, record(next.body, trajectory)));
                     }
-                    None => watched.bodies.rest(lane),
+                    None => {
+                        moving -= 1;
+                        watched.bodies.rest(lane);
+                    }
                 }
             }
         }

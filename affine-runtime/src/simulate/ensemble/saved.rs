@@ -52,11 +52,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
         let expected = self.expected_outputs();
         let add = |outputs: &mut Vec<_>, t, point: &PointOf<N, H>| outputs.push((t, *point));
         let begin = |_, _: &H| Vec::with_capacity(expected);
-        self.numbers(rest).chunks::<F64x8, _, Error>(chunk.max(1), &begin, &add, |bodies| {
-            let (Some(first), Some(last)) = (bodies.first(), bodies.last()) else { return Ok(()) };
+        self.numbers(rest).chunks::<F64x8, _, Error>(chunk.max(1), &begin, &add, |parts| {
+            let bodies = || parts.iter().flatten();
+            let (Some(first), Some(last)) = (bodies().next(), bodies().next_back()) else { return Ok(()) };
             let mut lines = String::new();
             table.clear();
-            for body in &bodies {
+            for body in bodies() {
                 let ends = body.end.iter().filter(|_| body.folded.is_empty()).map(|point| (body.t, *point));
                 for (t, point) in body.folded.iter().copied().chain(ends) {
                     table.push::<N, H::Model>(body.number, &values(body.number), t, &point);

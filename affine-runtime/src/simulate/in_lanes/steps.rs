@@ -86,6 +86,12 @@ where
         }
     }
 
+    /// Where its steps end, it is asked of every body whether it [stands](Self::stands).
+    pub(in crate::simulate) const fn are_looked_after() -> bool {
+        let description = &<H::Model as Model<N>>::DESCRIPTION;
+        description.custom_potential || passes_through_zero(description)
+    }
+
     /// The body in a lane goes on from the end of its last step: the potential has a value there, and the body has kept its
     /// orientation throughout.
     pub(in crate::simulate) fn stands(&mut self, lane: usize) -> bool {

@@ -61,20 +61,6 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Attempt<'_, T, S, F> {
             }
         }
     }
-
-    /// The trial states at the end of the step, rounded once, and their slopes.
-    #[inline(always)]
-    pub(super) fn end<V: Simd, const TERMS: usize>(&mut self, simd: V, row: &[(usize, f64); TERMS]) {
-        for k in 0..parts::<V, T>() {
-            let h = part(simd, &self.h, k);
-            for i in 0..S::LEN {
-                let sum = combination(simd, self.stages, (i, k), row, TERMS);
-                let y = part(simd, &self.y.as_ref()[i], k);
-                set_part(simd, &mut self.trial.as_mut()[i], k, plus::<V, T>(simd, sum, h, y));
-            }
-        }
-        self.f.slope(self.end, self.trial, &mut self.stages[AT_END]);
-    }
 }
 
 /// Component `i` of the slopes in a vector of lanes, each times the coefficient that a row has for it: of its first terms,
