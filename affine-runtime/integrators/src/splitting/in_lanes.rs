@@ -9,7 +9,7 @@ use super::of_order;
 use crate::Failure;
 use crate::equal_steps::{EqualSteps, Times};
 use crate::lanes::Lanes;
-use crate::lanes::parts::in_lanes;
+use crate::lanes::parts::{in_lanes, part, parts, set_part};
 use affine_core::model::StateVector;
 use affine_core::system::Sum;
 
@@ -146,9 +146,15 @@ struct Step<'a, T, S, P> {
 impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> WithSimd for Step<'_, T, S, P> {
     type Output = T;
     #[inline(always)]
-    fn with_simd<V: Simd>(self, _simd: V) -> T {
+    fn with_simd<V: Simd>(self, simd: V) -> T {
         let Self { pieces, sweeps, at: (t, h), from, to, .. } = self;
-        *to = *from;
+        for (to, from) in [(&mut to.value, &from.value), (&mut to.carry, &from.carry)] {
+            for (to, from) in to.as_mut().iter_mut().zip(from.as_ref()) {
+                for k in 0..parts::<V, T>() {
+                    set_part(simd, to, k, part(simd, from, k));
+                }
+            }
+        }
         sweeps.each_timed(
             P::COUNT,
             (t, h),

@@ -98,6 +98,21 @@ where
         };
         keeps_orientation(&moving, &mut between, (&begin, &end)).is_ok()
     }
+
+    /// Lets bodies go alone from where their last step began, which they cannot go on from the end of.
+    fn let_go(&mut self, doubts: F64x8, left: &mut dyn FnMut(Left<H, PointOf<N, H>>)) {
+        for lane in 0..EIGHT {
+            let is_sound =
+                |own: &Self| (doubts.lane(lane) == 0.0 || own.goes_on(lane)) && own.has_value(lane);
+            let has_to_leave = self.has_body[lane] && !is_sound(self);
+            if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
+                let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
+                let (handle, from) = (self.handle(lane).clone(), (begin.0, point));
+                left(Left { lane, handle, from, steps: self.steps[lane], is_limited: false });
+                self.rest(lane);
+            }
+        }
+    }
 }
 
 impl<const N: usize, H: Handle<N>> Eight<N, H> for BySplitting<N, H>
@@ -153,18 +168,12 @@ where
         self.integration.pieces_mut().0.settle();
         while !self.integration.is_finished() {
             let doubts = self.integration.advance();
-            for lane in 0..EIGHT {
-                let is_sound =
-                    |own: &Self| (doubts.lane(lane) == 0.0 || own.goes_on(lane)) && own.has_value(lane);
-                let has_to_leave = self.has_body[lane] && !is_sound(self);
-                if let Some(begin) = self.integration.begin().filter(|_| has_to_leave) {
-                    let point = self.anew[lane].unwrap_or_else(|| self.expanded(lane, begin));
-                    let (handle, from) = (self.handle(lane).clone(), (begin.0, point));
-                    left(Left { lane, handle, from, steps: self.steps[lane], is_limited: false });
-                    self.rest(lane);
-                }
+            // Of most steps there is nothing to ask.
+            let custom = const { H::Model::DESCRIPTION.custom_potential };
+            if custom || doubts.as_slice().iter().any(|doubt| *doubt != 0.0) {
+                self.let_go(doubts, left);
             }
-            self.anew = [None; EIGHT];
+            self.anew.iter_mut().for_each(|anew| *anew = None);
             self.steps.iter_mut().for_each(|steps| *steps += 1);
         }
         Ok(())
