@@ -1,5 +1,8 @@
 //! Bodies of an ensemble on their way through lanes.
 
+use core::marker::PhantomData;
+use core::slice::Chunks;
+
 use super::ends::EndsInLanes;
 use crate::capability::InLanes;
 use crate::inner::{Fate, Start, gathered, starts_in_lanes};
@@ -20,7 +23,7 @@ pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
 }
 
 /// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
-pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
+fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
     (plan, t_end): (&Plan, f64),
     points: &[(usize, &'a M, &'a M::Point<f64>)],
 ) -> Vec<Begun<'a, N, M>> {
@@ -43,6 +46,32 @@ pub(super) fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
         .collect()
 }
 
+/// Bodies that wait for a lane, begun eight at once.
+pub(super) struct Waiting<'a, 'p, const N: usize, T, M: InLanes<N>> {
+    course: (&'p Plan, f64),
+    others: Chunks<'p, (usize, &'a M, &'a M::Point<f64>)>,
+    begun: Vec<Begun<'a, N, M>>,
+    /// Of those that have begun, so many have a lane.
+    taken: usize,
+    lanes: PhantomData<T>,
+}
+
+impl<'a, 'p, const N: usize, T: Lanes, M: InLanes<N>> Waiting<'a, 'p, N, T, M> {
+    /// Bodies from their points, each with its place among the starts and its model.
+    pub(super) fn new(course: (&'p Plan, f64), points: &'p [(usize, &'a M, &'a M::Point<f64>)]) -> Self {
+        Self { course, others: points.chunks(EIGHT), begun: Vec::new(), taken: 0, lanes: PhantomData }
+    }
+
+    /// The next body; lent, since bodies are long.
+    pub(super) fn next(&mut self) -> Option<&Begun<'a, N, M>> {
+        while self.taken == self.begun.len() {
+            (self.begun, self.taken) = (begun::<N, T, M>(self.course, self.others.next()?), 0);
+        }
+        self.taken += 1;
+        self.begun.get(self.taken - 1)
+    }
+}
+
 /// Bodies in lanes, with the ends of their steps.
 pub(super) struct Watched<'a, const N: usize, T: Lanes, M: InLanes<N>> {
     pub(super) bodies: Bodies<N, T, &'a M>,
@@ -52,30 +81,31 @@ pub(super) struct Watched<'a, const N: usize, T: Lanes, M: InLanes<N>> {
 }
 
 impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Watched<'a, N, T, M> {
-    /// The first bodies, one in every lane; lanes that are left rest where the last of them is. With the bodies that are there.
+    /// The first bodies, one in every lane, and which they are; lanes that are left rest where the first of them is. None without
+    /// bodies.
     pub(super) fn filled(
         (plan, t_end): (&Plan, f64),
         (within_steps, has_events): (bool, bool),
-        first: Begun<'a, N, M>,
-        others: &mut impl Iterator<Item = Begun<'a, N, M>>,
-    ) -> (Self, [Option<usize>; EIGHT]) {
+        waiting: &mut Waiting<'a, '_, N, T, M>,
+    ) -> Option<(Self, [Option<usize>; EIGHT])> {
+        let first = waiting.next()?;
         let together = Together::of(|_| (first.model, first.constants));
         let bodies = Bodies::new(together, (plan, t_end), within_steps);
         let ends = has_events.then(|| EndsInLanes::new(EIGHT, (first.model, first.point)));
         let mut watched = Self { bodies, t0: plan.t0, ends };
-        watched.put(0, &first);
-        let (mut numbers, mut last) = ([None; EIGHT], first);
-        numbers[0] = Some(last.body);
+        (0..EIGHT).for_each(|lane| watched.put(lane, first));
+        let mut numbers = [None; EIGHT];
+        numbers[0] = Some(first.body);
         for (lane, number) in numbers.iter_mut().enumerate().skip(1) {
-            let next = others.next();
-            *number = next.as_ref().map(|next| next.body);
-            last = next.unwrap_or(last);
-            watched.put(lane, &last);
-            if number.is_none() {
-                watched.bodies.rest(lane);
+            match waiting.next() {
+                Some(next) => {
+                    watched.put(lane, next);
+                    *number = Some(next.body);
+                }
+                None => watched.bodies.rest(lane),
             }
         }
-        (watched, numbers)
+        Some((watched, numbers))
     }
 
     /// Puts a body into a lane.

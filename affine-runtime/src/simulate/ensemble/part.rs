@@ -1,7 +1,7 @@
 //! Bodies of an ensemble one after the other through the same lanes.
 
 use super::asked::{Asked, Member, Start};
-use super::bodies::{Watched, begun};
+use super::bodies::{Waiting, Watched};
 use super::recording::{Next, Recording};
 use crate::capability::InLanes;
 use crate::inner::Fate;
@@ -62,20 +62,20 @@ where
         let together: Vec<_> =
             together.map(|(body, start)| (body, start.handle.model(), &start.point)).collect();
         let course = (self.plan, self.t_end);
-        let mut waiting = together.chunks(EIGHT).flat_map(|points| begun::<N, T, H::Model>(course, points));
-        let Some(first) = waiting.next() else { return };
-        let (model, start) = (&models[first.body], &starts[first.body].point);
-        let energy = Energy::at(model, self.plan.t0, start);
-        let trajectory = empty_trajectory(model, self.plan, start, &energy);
-        let mut trajectories = vec![trajectory; EIGHT];
-        let record =
-            |body: usize, trajectory| Recording::begun(self, &starts[body], &models[body], trajectory);
+        let mut waiting = Waiting::<N, T, H::Model>::new(course, &together);
         let asked = (self.within_steps, self.has_events);
-        let (mut watched, numbers) = Watched::<N, T, H::Model>::filled(course, asked, first, &mut waiting);
-        let recordings = trajectories.iter_mut().zip(numbers);
-        let mut recordings: Vec<_> =
-            recordings.map(|(trajectory, body)| body.map(|body| (body, record(body, trajectory)))).collect();
-        let mut moving = recordings.iter().flatten().count();
+        let Some((mut watched, bodies)) = Watched::filled(course, asked, &mut waiting) else { return };
+        let Some(first) = bodies.iter().flatten().next() else { return };
+        let (model, start) = (&models[*first], &starts[*first].point);
+        let energy = Energy::at(model, self.plan.t0, start);
+        let mut trajectories = vec![empty_trajectory(model, self.plan, start, &energy); EIGHT];
+        let recordings =
+            trajectories.iter_mut().map(|trajectory| Recording::of_none(self, model, trajectory));
+        let mut recordings: Vec<_> = recordings.collect();
+        for (recording, body) in recordings.iter_mut().zip(bodies) {
+            body.iter().for_each(|body| recording.begin(self, (*body, &starts[*body]), &models[*body]));
+        }
+        let mut moving = bodies.iter().flatten().count();
         let every_step = self.within_steps || const { Bodies::<N, T, &H::Model>::are_looked_after() };
         while moving > 0 {
             let (mut fates, mut none_ends) = ([Next::Step; EIGHT], true);
@@ -87,21 +87,23 @@ where
                 continue;
             }
             for lane in 0..EIGHT {
-                let Some((_, recording)) = &mut recordings[lane] else { continue };
+                let recording = &mut recordings[lane];
+                if !recording.has_body() {
+                    continue;
+                }
                 let next = self.next(&mut watched, lane, fates[lane], recording);
                 if next == Next::Step {
                     continue;
                 }
-                let Some((body, recording)) = recordings[lane].take() else { continue };
-                let (trajectory, folded) = recording.done();
+                let Some((body, folded, trajectory)) = recording.done() else { continue };
                 if next == Next::End {
                     let ((t, end), events) = (trajectory.end, core::mem::take(&mut trajectory.events));
                     done(body, Member { number: starts[body].number, end: Ok(end), t, events, folded });
                 }
                 match waiting.next() {
                     Some(next) => {
-                        watched.put(lane, &next);
-                        recordings[lane] = Some((next.body, record(next.body, trajectory)));
+                        watched.put(lane, next);
+                        recording.begin(self, (next.body, &starts[next.body]), &models[next.body]);
                     }
                     None => {
                         moving -= 1;

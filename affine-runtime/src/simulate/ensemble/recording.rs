@@ -25,19 +25,19 @@ pub(super) enum Next {
     Alone,
 }
 
-/// A body on its way, with what is folded of it so far.
+/// The body on its way in a lane, after others that were there.
 pub(super) struct Recording<'r, 'a, const N: usize, P, A> {
     recorder: Recorder<'r, 'a, N, P>,
-    folded: A,
+    /// Its place among the starts, and what is folded of it so far; none where the lane rests.
+    of_body: Option<(usize, A)>,
     /// A run would not begin.
     is_refused: bool,
 }
 
 impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
-    /// At the start of a body, in a trajectory that was another's before.
-    pub(super) fn begun<'e: 'a, H>(
+    /// Of a lane in which there is no body yet, where all of them are in turn.
+    pub(super) fn of_none<'e: 'a, H>(
         asked: &Asked<'_, 'e, N, H, A>,
-        start: &Start<N, H>,
         model: &'a dyn Mechanics<N, P>,
         trajectory: &'r mut Trajectory<N, P>,
     ) -> Self
@@ -45,12 +45,7 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         H: Handle<N, Model: Model<N, Point<f64> = P>>,
     {
         let (plan, t0) = (asked.plan, asked.plan.t0);
-        (trajectory.start, trajectory.end) = ((t0, start.point), (t0, start.point));
-        trajectory.energies.work_at_end = 0.0;
-        trajectory.times.clear();
-        trajectory.points.clear();
-        trajectory.events.clear();
-        let mut recorder = Recorder {
+        let recorder = Recorder {
             model,
             needs_determinant: false,
             trajectory,
@@ -58,7 +53,7 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
             schedule: asked.schedule.clone(),
             progress: None,
             observe: None,
-            watcher: Watcher::new((asked.events)(), model.bases()),
+            watcher: Watcher::new(Vec::new(), None),
             max_steps: plan.max_steps,
             origin: t0,
             t_end: asked.t_end,
@@ -69,12 +64,43 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
             is_lost: false,
             turn: None,
         };
+        Self { recorder, of_body: None, is_refused: false }
+    }
+
+    /// At the start of a body.
+    pub(super) fn begin<'e: 'a, H>(
+        &mut self,
+        asked: &Asked<'_, 'e, N, H, A>,
+        (body, start): (usize, &Start<N, H>),
+        model: &'a dyn Mechanics<N, P>,
+    ) where
+        H: Handle<N, Model: Model<N, Point<f64> = P>>,
+    {
+        let (recorder, t0) = (&mut self.recorder, asked.plan.t0);
+        let Trajectory { start: first, end, times, points, events, energies, .. } = &mut *recorder.trajectory;
+        (*first, *end) = ((t0, start.point), (t0, start.point));
+        energies.work_at_end = 0.0;
+        times.clear();
+        points.clear();
+        events.clear();
+        recorder.model = model;
+        recorder.schedule.clone_from(&asked.schedule);
+        if asked.has_events {
+            recorder.watcher = Watcher::new((asked.events)(), model.bases());
+        }
+        recorder.place = Place::starting(Vec::new(), (Statistics::default(), 0.0));
+        (recorder.steps, recorder.witness, recorder.is_lost, recorder.turn) = (0, None, false, None);
         let due = recorder.schedule.take_through(t0, recorder.backward);
-        let begun = recorder.begin_energy(t0, &start.point, Some(plan.tolerance));
-        let is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
+        let begun = recorder.begin_energy(t0, &start.point, Some(asked.plan.tolerance));
+        self.is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
         let mut folded = (asked.begin)(start.number, &start.handle);
         due.iter().for_each(|t| (asked.add)(&mut folded, *t, &start.point));
-        Self { recorder, folded, is_refused }
+        self.of_body = Some((body, folded));
+    }
+
+    /// There is a body in the lane.
+    pub(super) fn has_body(&self) -> bool {
+        self.of_body.is_some()
     }
 
     /// Looks at the ends of a step for events.
@@ -105,9 +131,10 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
             }
         }
         let Recorder { schedule, backward, .. } = &mut self.recorder;
+        let Some((_, folded)) = &mut self.of_body else { return Next::Step };
         while let Some(due) = schedule.take_through(t, *backward) {
             match at(due) {
-                Ok((point, _)) if check(due, &point).is_ok() => add(&mut self.folded, due, &point),
+                Ok((point, _)) if check(due, &point).is_ok() => add(folded, due, &point),
                 _ => return Next::Alone,
             }
         }
@@ -119,7 +146,8 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         let Trajectory { times, points, energies, .. } = &mut *self.recorder.trajectory;
         energies.outputs.clear();
         energies.work.clear();
-        times.drain(..).zip(points.drain(..)).for_each(|(t, point)| add(&mut self.folded, t, &point));
+        let Some((_, folded)) = &mut self.of_body else { return };
+        times.drain(..).zip(points.drain(..)).for_each(|(t, point)| add(folded, t, &point));
     }
 
     /// Looks at the end of the interval; whether a body may end there.
@@ -128,8 +156,9 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         !self.is_refused && recorder.reach(t, end).and_then(|()| recorder.arrive()).is_ok()
     }
 
-    /// The trajectory, for the next body, with the point reached last and the events, and what was folded.
-    pub(super) fn done(self) -> (&'r mut Trajectory<N, P>, A) {
-        (self.recorder.trajectory, self.folded)
+    /// The body leaves the lane: its place among the starts and what was folded, with the trajectory, which is the next one's.
+    pub(super) fn done(&mut self) -> Option<(usize, A, &mut Trajectory<N, P>)> {
+        let (body, folded) = self.of_body.take()?;
+        Some((body, folded, self.recorder.trajectory))
     }
 }
