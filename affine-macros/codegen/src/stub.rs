@@ -38,6 +38,9 @@ fn parameter(data: &Data, outline: &Outline) -> Option<Field> {
     named.filter(coefficient).find(|field| field.ident != "n")
 }
 
+/// What brings methods and traits of its own, and goes with the energy of every stand-in.
+const CAPABILITIES: [&str; 6] = ["splitting", "taylor", "tangent", "lanes", "two_polar", "metric"];
+
 /// What can be told of a specification that may not parse.
 struct Outline {
     dim: usize,
@@ -63,13 +66,11 @@ impl Outline {
         let dim = proc_macro2::Literal::usize_unsuffixed(self.dim);
         let coefficient = field.map_or_else(|| quote!(1), |field| quote!(#field));
         let moving = self.names.iter().any(|name| name == "body_translation" || name == "space_translation");
-        let translation = moving.then(|| quote!(, body_translation = 1));
+        // The one that goes with every capability below.
+        let translation = moving.then(|| quote!(, space_translation = 1));
         let potential = self.potential.then(|| quote!(, potential = q^2));
         let runtime = self.runtime.as_ref().map(|path| quote!(, crate = #path));
-        let capabilities = ["splitting", "taylor", "tangent"]
-            .map(|key| self.names.iter().find(|name| *name == key))
-            .into_iter()
-            .flatten();
+        let capabilities = CAPABILITIES.iter().filter_map(|key| self.names.iter().find(|name| name == key));
         let capabilities: Vec<&Ident> = capabilities.collect();
         let emit = (!capabilities.is_empty()).then(|| quote!(, emit(#(#capabilities),*)));
         let args =

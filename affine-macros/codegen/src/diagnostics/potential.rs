@@ -274,8 +274,9 @@ impl PotentialMistake {
             ),
             Self::NotSmooth { written } => text(
                 format!("`{written}` is not smooth where its argument is zero"),
-                "the force is the derivative of the potential, and it jumps there; `abs(a)` and `sqrt(a^2)` are the same function",
-                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or a power, as in `a^2` or \
+                "the force is the derivative of the potential, and it or a derivative of it jumps there, where methods lose \
+                 their order; `abs(a)` and `sqrt(a^2)` are the same function",
+                "use a smooth function, as in `sqrt(a^2 + b^2)` with a constant b, or an even power, as in `a^2` or \
                  `abs(a)^2`",
             ),
             Self::Coincidence { written, argument, stretches: (a, b) } => text(
