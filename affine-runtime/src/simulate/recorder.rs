@@ -184,12 +184,13 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         told: Option<Step<P>>,
         at: &mut At<'_, P>,
     ) -> Result<bool, Reason> {
+        if !self.has_events() {
+            return Ok(false);
+        }
         let (start, model) = (self.watcher.t(), self.model);
         let rate = |point: &P| larger(sampling.rate, turning(model, point));
         let told = match told {
-            None if sampling.by_ends && self.has_events() => {
-                self.watcher.passes(model, (end, sampling.rate), at)?
-            }
+            None if sampling.by_ends => self.watcher.passes(model, (end, sampling.rate), at)?,
             told => told.unwrap_or(Step::Open(None)),
         };
         let (known, is_crossed) = match told {
@@ -198,7 +199,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             Step::Open(point) => (point, false),
         };
         let (mut count, mut samples) = (0, 0_u32);
-        while self.has_events() && self.watcher.t() != end {
+        while self.watcher.t() != end {
             let sample = if is_crossed { end } else { self.watcher.next(start, end, sampling) };
             for met in self.watcher.look((sample, known.filter(|_| sample == end)), rate, at)? {
                 count += 1;
