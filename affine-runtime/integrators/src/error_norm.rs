@@ -5,7 +5,9 @@ mod in_lanes;
 mod longest;
 
 #[cfg(feature = "std")]
-pub(crate) use in_lanes::{Measured, NormInLanes, Squares, are_in_range, measure_again, with_squares};
+pub(crate) use in_lanes::{
+    Measured, NormInLanes, Squares, are_in_range, has_size, measure_again, with_squares,
+};
 
 use core::ops::Range;
 

@@ -163,6 +163,12 @@ fn extents<T: Lanes>(groups: &[Group], position: usize, measured: &[Measured<T>;
     sizes
 }
 
+/// Errors of a group are measured against a size: its own, or with that of the placement.
+#[inline(always)]
+pub(crate) fn has_size(group: &Group) -> bool {
+    matches!(Measure::of(group), Measure::Size | Measure::Position)
+}
+
 /// Norms of the groups of a state before and after a step, where the squares of one of them leave the range of numbers.
 #[cold]
 #[inline(never)]

@@ -5,7 +5,7 @@ use core::ops::Range;
 use pulp::Simd;
 
 use super::attempt::{AT_END, Attempt, combination};
-use crate::error_norm::{GROUPS, Measured, Squares, are_in_range, measure_again, with_squares};
+use crate::error_norm::{GROUPS, Measured, Squares, are_in_range, has_size, measure_again, with_squares};
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{part, parts, plus, set_part};
@@ -42,8 +42,10 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Attempt<'_, T, S, F> {
                 set_part(simd, &mut own.sizes[1], k, simd.sqrt_f64s(after));
                 let is_plain = simd.or_m64s(are_in_range(simd, fifth), simd.equal_f64s(sizes, zero));
                 of_errors = simd.select_f64s(is_plain, of_errors, one);
-                let are_plain = simd.and_m64s(are_in_range(simd, before), are_in_range(simd, after));
-                out_of_range = simd.select_f64s(are_plain, out_of_range, one);
+                if has_size(group) {
+                    let are_plain = simd.and_m64s(are_in_range(simd, before), are_in_range(simd, after));
+                    out_of_range = simd.select_f64s(are_plain, out_of_range, one);
+                }
             }
             set_part(simd, &mut doubt, k, of_errors);
         }
