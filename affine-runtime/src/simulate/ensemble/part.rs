@@ -78,17 +78,17 @@ where
         let mut moving = bodies.iter().flatten().count();
         let every_step = self.within_steps || const { Bodies::<N, T, &H::Model>::are_looked_after() };
         while moving > 0 {
-            let (mut fates, mut none_ends) = ([Next::Step; EIGHT], true);
+            let (mut fates, mut looked_at) = ([Next::Step; EIGHT], [every_step; EIGHT]);
             for (lane, fate) in watched.advance() {
                 fates[lane] = if fate == Fate::Arrived { Next::End } else { Next::Alone };
-                none_ends = false;
+                looked_at[lane] = true;
             }
-            if none_ends && !every_step {
+            if looked_at == [false; EIGHT] {
                 continue;
             }
             for lane in 0..EIGHT {
                 let recording = &mut recordings[lane];
-                if !recording.has_body() {
+                if !looked_at[lane] || !recording.has_body() {
                     continue;
                 }
                 let next = self.next(&mut watched, lane, fates[lane], recording);
