@@ -200,6 +200,16 @@ fn a_folder_of_another_run_is_refused() {
         fs::write(&place, format!("{manifest}{state}\n")).unwrap();
         assert_eq!(refused(elastic()), other, "{state}");
     }
+    // A length or a number of the first state is another, and nothing comes after it.
+    let (before, states) = manifest.split_once("\nstate ").unwrap();
+    let words: Vec<&str> = states.lines().next().unwrap().split(' ').collect();
+    for (place_of, word) in words.iter().enumerate().take(40) {
+        let other_word = format!("{:x}", u64::from_str_radix(word, 16).unwrap().wrapping_sub(1));
+        let edited: Vec<&str> =
+            (0..words.len()).map(|k| if k == place_of { other_word.as_str() } else { words[k] }).collect();
+        fs::write(&place, format!("{before}\nstate {}\n", edited.join(" "))).unwrap();
+        assert_eq!(refused(elastic()), other, "word {place_of}");
+    }
     // A number of its state is another.
     let last = manifest.trim_end().rfind(' ').unwrap();
     fs::write(&place, format!("{} 1\n", &manifest[..last])).unwrap();

@@ -231,6 +231,23 @@ fn rounding_noise_is_no_inertia() {
     assert!(NoiseMatrix2 { a: 1.0, b, c: 0.0 }.prepare().is_ok());
 }
 
+#[affine_model(dim = 2, kinetic(casimir2 = 1), potential = sqrt(k)*tr(G) + ln(l)*q + 1/b*q^2)]
+struct Functions2 {
+    k: f64,
+    l: f64,
+    b: f64,
+}
+
+/// What is no number is not said to overflow.
+#[test]
+fn functions_of_fields_without_a_value_are_told_from_overflows() {
+    let reason = |k, l, b| defect(Functions2 { k, l, b }.prepare()).reason;
+    assert!(reason(-1.0, 1.0, 1.0).contains("root"), "{}", reason(-1.0, 1.0, 1.0));
+    assert!(reason(1.0, -1.0, 1.0).contains("logarithm"));
+    assert!(reason(1.0, 1.0, 0.0).contains("divided by zero"));
+    assert!(Functions2 { k: 1.0, l: 1.0, b: 1.0 }.prepare().is_ok());
+}
+
 /// A subnormal mass or inertia passes its threshold and has no finite reciprocal.
 #[test]
 fn fields_without_a_finite_reciprocal_are_refused() {

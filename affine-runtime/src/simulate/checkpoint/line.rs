@@ -1,5 +1,7 @@
 //! Checkpoints as a line of a manifest: their numbers, one after the other.
 
+use core::iter;
+
 use super::numbers::chosen;
 use super::{Bits, Checkpoint, Place};
 use crate::error::Setting;
@@ -15,7 +17,8 @@ impl Checkpoint {
         let mut tape = Bits::Written(Vec::new());
         self.clone().exchange(&mut tape);
         let Bits::Written(numbers) = tape else { return String::new() };
-        numbers.iter().fold("state".to_owned(), |line, number| format!("{line} {number:x}"))
+        let words = numbers.iter().map(|number| format!(" {number:x}"));
+        iter::once("state".to_owned()).chain(words).collect()
     }
 
     /// The checkpoint of a run from such a line.

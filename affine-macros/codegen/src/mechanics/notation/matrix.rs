@@ -103,7 +103,8 @@ impl Notation<'_> {
     ) -> Named {
         let given = self.as_given(arena, rows);
         let carried = self.carried(arena, rows).map(|matrix| matrix.number);
-        if let Some(name) = field_of(arena, &given) {
+        // What is carried into other bases is no longer the field, and has a name of its own.
+        if let Some(name) = field_of(arena, &given).filter(|_| carried.is_none()) {
             let name = field::matrix(name);
             return Named { rows: rows.to_vec(), name, definition: None, carried };
         }
