@@ -33,13 +33,15 @@ pub fn equations(
     let form = if h.is_tensor() { Form::ThroughVelocity } else { Form::Expanded };
     let known = known_forms(arena, notation, h, chart, &kinetics.affine_velocity(form));
     // For the canonical momentum the velocity is the rate of phi itself.
-    let mut list = match chart.momentum {
-        Momentum::Canonical => Vec::new(),
-        _ => vec![affine_velocity(arena, notation, (h, kinetic), chart)],
+    let (mut list, mut projects) = match chart.momentum {
+        Momentum::Canonical => (Vec::new(), false),
+        _ => {
+            let (velocity, projects) = affine_velocity(arena, notation, (h, kinetic), chart);
+            (vec![velocity], projects)
+        }
     };
     let names = force_names(arena, notation, h, chart, potential, forces);
     let mut written: Vec<Polynomial> = Vec::new();
-    let mut projects = false;
     for group in groups(chart) {
         let derived: Vec<Polynomial> = group.coordinates.iter().map(|z| kinetics.rate(form, *z)).collect();
         let known = known.iter().find(|known| known.components == derived);
@@ -60,7 +62,9 @@ pub fn equations(
             Some(known) => {
                 let (mut value, shape) = with_force(known, force);
                 if matches!(group.coordinates[0], Coordinate::M(..)) && h.constraint.is_some() {
-                    (value, projects) = under_constraint(value, shape);
+                    let is_projected;
+                    (value, is_projected) = under_constraint(value, shape);
+                    projects |= is_projected;
                 }
                 list.push(value.of(rate(group.of)));
             }
@@ -184,20 +188,26 @@ fn force_names(
     [joined(linear, pulls), joined(affine, pushes)]
 }
 
-/// The inverse Legendre transformation.
+/// The inverse Legendre transformation, and whether that is a projection.
 fn affine_velocity(
     arena: &mut Arena,
     notation: &Notation,
     (h, kinetic): (&Hamiltonian, &Kinetic),
     chart: &Chart,
-) -> Sentence {
+) -> (Sentence, bool) {
     let (x, omega) = (|| momentum(chart.momentum), velocity(chart.momentum));
     let Some(iso) = &h.isotropic else {
         if let Some(inertial) = inertial(arena, notation, h, kinetic) {
             let [left, right] = inertial.velocity;
-            return right.of(left);
+            return (right.of(left), false);
         }
-        return slope(letters::HAMILTONIAN, x()).transposed().of(omega);
+        // Of momenta in the algebra: any function of matrices that is H there has the same projection of its slope.
+        let slope = slope(letters::HAMILTONIAN, x()).transposed();
+        let (value, projects) = match h.constraint {
+            Some(_) => under_constraint(slope, Shape::Other),
+            None => (slope, false),
+        };
+        return (value.of(omega), projects);
     };
     let mut sum = Sum::default();
     let mut add = |coefficient: &Polynomial, body: Sentence| sum.add(arena, notation, coefficient, body);
@@ -205,7 +215,7 @@ fn affine_velocity(
     add(&trace_coefficient(h, iso), product([trace(x()), Sentence::One]));
     add(&iso.skew.neg(), skew(x()));
     add(&iso.casimir3, x().power(2));
-    sum.of(omega)
+    (sum.of(omega), false)
 }
 
 /// What the projection on the Lie algebra of a constraint is.

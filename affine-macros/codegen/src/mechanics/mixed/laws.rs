@@ -47,6 +47,10 @@ fn in_space() -> Sentence {
     momentum(letters::ENERGY_IN_SPACE, letters::AFFINE_VELOCITY)
 }
 
+fn seen_from_the_body() -> Sentence {
+    product([inverse_placement(), in_space(), placement()])
+}
+
 fn in_dphi() -> Sentence {
     momentum(letters::ENERGY_IN_DPHI, letters::PLACEMENT_VELOCITY)
 }
@@ -60,11 +64,12 @@ struct Placed {
     psi: Square<Residue>,
 }
 
+// Parts have letters of their own: the affine spin is that of the whole sum.
 const BODY: Law = Law {
-    own: Some((letters::COMOVING_AFFINE_SPIN, in_the_body)),
-    momentum: || product([Sentence::from(letters::COMOVING_AFFINE_SPIN), inverse_placement()]),
+    own: Some((letters::SPIN_IN_THE_BODY, in_the_body)),
+    momentum: || product([Sentence::from(letters::SPIN_IN_THE_BODY), inverse_placement()]),
     rate: Some(|| {
-        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::COMOVING_AFFINE_SPIN].map(Sentence::from);
+        let [o, x] = [letters::COMOVING_AFFINE_VELOCITY, letters::SPIN_IN_THE_BODY].map(Sentence::from);
         Summand::minus(product([o, x, inverse_placement()]))
     }),
     value: |at| {
@@ -73,12 +78,13 @@ const BODY: Law = Law {
     },
 };
 
+// phi^-1 X of the spin X in space is Y phi^-1, and phi^-1 Omega is Omega_hat phi^-1.
 const SPACE: Law = Law {
-    own: Some((letters::AFFINE_SPIN, in_space)),
-    momentum: || product([inverse_placement(), Sentence::from(letters::AFFINE_SPIN)]),
+    own: Some((letters::SPIN_IN_SPACE, seen_from_the_body)),
+    momentum: || product([Sentence::from(letters::SPIN_IN_SPACE), inverse_placement()]),
     rate: Some(|| {
-        let [x, o] = [letters::AFFINE_SPIN, letters::AFFINE_VELOCITY].map(Sentence::from);
-        Summand::minus(product([inverse_placement(), x, o]))
+        let [y, o] = [letters::SPIN_IN_SPACE, letters::COMOVING_AFFINE_VELOCITY].map(Sentence::from);
+        Summand::minus(product([y, o, inverse_placement()]))
     }),
     value: |at| {
         let momentum = ring::product(&at.psi, &at.x);
@@ -96,7 +102,7 @@ const BODY_ON_A_GROUP: Law = Law {
 };
 
 const SPACE_ON_A_GROUP: Law = Law {
-    own: Some((letters::SPIN_IN_SPACE, || product([inverse_placement(), in_space(), placement()]))),
+    own: Some((letters::SPIN_IN_SPACE, seen_from_the_body)),
     momentum: || Sentence::from(letters::SPIN_IN_SPACE),
     rate: None,
     value: |at| [ring::product(&ring::product(&at.psi, &at.x), &at.phi), zero(&at.x)],
