@@ -24,10 +24,7 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     course: &Course<'_, M::Point<f64>>,
     choice: &mut Choice,
 ) {
-    // Within steps a Nystrom method costs a step for each time that is looked at.
-    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
-        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
-    let by_halves = !course.within_steps && in_reach;
+    let by_halves = by_halves::<N, M>(model, course);
     let Fastest { rate, evaluations } = match course.method {
         Method::Automatic => rate_of_friction::<N, M>(model, (course.t0, course.start)),
         _ => Fastest::default(),
@@ -64,6 +61,13 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     };
     choice.needs_determinant =
         const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(choice.method);
+}
+
+/// Methods may be taken that form `det phi`, and that a time within a step costs a step.
+pub(super) fn by_halves<const N: usize, M: Model<N>>(model: &M, course: &Course<'_, M::Point<f64>>) -> bool {
+    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
+        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
+    !course.within_steps && in_reach
 }
 
 /// Forces are computed from the placement alone, nothing being carried along.

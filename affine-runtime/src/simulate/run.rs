@@ -236,7 +236,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 let mut choice = Choice::default();
                 let motion = self.model.begin(&course, &mut choice);
                 recorder.note(&choice);
-                recorder.follow(&mut *motion?)
+                let outcome = recorder.follow(&mut *motion?);
+                recorder.look_back(&course);
+                outcome
             }
         }
     }

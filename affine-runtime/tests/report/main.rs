@@ -328,6 +328,31 @@ fn drifts_at_the_outputs_end_where_the_conservation_table_does() {
     }
 }
 
+/// What stands in the legend is what the table has, wherever outputs are: the end counts.
+#[test]
+fn drifts_at_the_end_are_drawn_without_outputs_too() {
+    let run = |outputs: &[f64]| {
+        let run = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0);
+        run.method(Method::Gauss { stages: 2, step: 0.3 }).output(outputs.iter().copied()).run().unwrap()
+    };
+    for outputs in [&[][..], &[0.0, 5.0], &[0.0, 5.0, 10.0]] {
+        let run = run(outputs);
+        let (conservation, picture) = (run.conservation(), run.to_svg());
+        let picture = Picture::of(&picture);
+        let drifting = conservation.drifts().iter().filter(|drift| drift.absolute > 0.0);
+        let mut count = 0;
+        for drift in drifting {
+            let label = format!("{}: {:.0e}", drift.quantity.name(), drift.relative());
+            count += usize::from(picture.texts().any(|text| text == label));
+        }
+        // As many as there are colours.
+        assert!(count >= 6, "{count} for {outputs:?}: {conservation}");
+        let kept = conservation.drifts().iter().filter(|drift| drift.absolute == 0.0).count();
+        let remark = picture.texts().find(|text| text.starts_with("no drift"));
+        assert_eq!(remark.map(str::to_owned), (kept > 0).then(|| format!("no drift: {kept} more")));
+    }
+}
+
 #[test]
 fn a_pinned_body_stands_side_by_side() {
     let run = Simulation::new(&VibratingBody::BENCHMARK, vibrating_body::start()).until(10.0).run().unwrap();
