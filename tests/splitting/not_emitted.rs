@@ -75,7 +75,7 @@ fn hint_of_pieces_comes_true() {
             said_and_done((&without, points.0), (&with, points.1), $tolerance)
         }};
     }
-    for tolerance in [1e-2, 1e-4] {
+    for tolerance in [1e-1, 1e-2] {
         assert_eq!(said_and_done!(harmonic, 1e8, tolerance), (true, true), "{tolerance:e}");
         assert_eq!(said_and_done!(hyperbolic, 1e8, tolerance), (true, true), "{tolerance:e}");
         // The interval is too short for a trial, or a trial fails.
@@ -83,5 +83,9 @@ fn hint_of_pieces_comes_true() {
         assert_eq!(said_and_done!(sheared, 1e8, tolerance), (false, false), "{tolerance:e}");
         assert_eq!(said_and_done!(quartic, 1e8, tolerance), (false, false), "{tolerance:e}");
     }
-    assert_eq!(said_and_done!(hyperbolic, 1e8, 1e-8), (false, false));
+    // What a trial shows at tighter tolerances, the pieces alone tell.
+    for tolerance in [1e-3, 1e-8] {
+        let (said, _) = said_and_done!(hyperbolic, 1e8, tolerance);
+        assert!(!said, "{tolerance:e}");
+    }
 }
