@@ -4,10 +4,9 @@ use super::course::{Choice, Course};
 use super::friction::{Fastest, is_stiff, rate_of_friction};
 use super::layout::carries_dilatation;
 use super::method::Method;
-use super::range::in_range;
+use super::range::by_halves;
 use super::stiffness::{Trial, stiffness};
 use crate::model::{Description, Model};
-use crate::state::Phase;
 
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: above it they cost more at
 /// equal errors on some benchmark problem. On P6 they cost less from an error of 1e-8 on, on P2 from 1e-10, on P8 and P1 from
@@ -61,13 +60,6 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     };
     choice.needs_determinant =
         const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(choice.method);
-}
-
-/// Methods may be taken that form `det phi`, and that a time within a step costs a step.
-pub(super) fn by_halves<const N: usize, M: Model<N>>(model: &M, course: &Course<'_, M::Point<f64>>) -> bool {
-    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
-        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
-    !course.within_steps && in_reach
 }
 
 /// Forces are computed from the placement alone, nothing being carried along.

@@ -1,8 +1,8 @@
 //! Whether a motion is stiff in what a piece of it has in closed form.
 
-use super::choice::by_halves;
 use super::course::Course;
 use super::layout::momentum_in;
+use super::range::by_halves;
 use crate::inner::is_emitted;
 use crate::inner::{EVALUATIONS_OF_FASTEST, fastest};
 use crate::integrate::splitting::Pieces;

@@ -1,7 +1,7 @@
 //! The energy as a witness: a motion that has lost it is not the one that was asked for.
 
+use super::energy::Energy;
 use super::mechanics::Mechanics;
-use super::point::Energy;
 use crate::error::Reason;
 use crate::inner::{larger, norm};
 use crate::model::{Conserved, Description, Quantity};

@@ -205,11 +205,9 @@ impl fmt::Display for Reason {
             Reason::Placement { determinant, rate, t } => {
                 match determinant {
                     0.0 => write!(f, "det phi is zero at t = {t}")?,
-                    // The zero lies next to what doubles tell, or next to where steps end.
-                    above if *above > 0.0 => {
-                        write!(f, "det phi falls to {above:e} at t = {t}, and nothing tells that it stays positive there")?;
-                    }
-                    below => write!(f, "det phi = {below:e}, and not positive from t = {t} on")?,
+                    // What of it is known next to there is the rate.
+                    d if *d > 0.0 => write!(f, "det phi falls to {d:e} at t = {t}, and may vanish next to it")?,
+                    d => write!(f, "det phi = {d:e}, and not positive from t = {t} on")?,
                 }
                 if let Some(rate) = rate {
                     write!(f, ", with the rate {rate:.3e} before")?;
