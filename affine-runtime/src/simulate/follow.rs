@@ -141,9 +141,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     /// Notes what many explicit steps were taken in place of. A run that is too short for a trial takes fewer.
     pub(super) fn look_back(&mut self, course: &Course<'_, P>) {
         let Trajectory { computation, statistics, .. } = &mut *self.trajectory;
-        let is_explicit = matches!(computation.method, Method::RungeKutta8 | Method::Taylor { .. });
-        let is_free = course.method == Method::Automatic && is_explicit && computation.missing.is_none();
-        if is_free && statistics.steps >= STEPS_UNTIL_A_LOOK {
+        let is_chosen = course.method == Method::Automatic && computation.method == Method::RungeKutta8;
+        if is_chosen && statistics.steps >= STEPS_UNTIL_A_LOOK {
             computation.stiffness = self.model.would_pass_over(course);
         }
     }

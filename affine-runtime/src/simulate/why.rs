@@ -99,7 +99,7 @@ impl Why {
                     "not emitted: `emit({key})` would give a method that is cheaper at this tolerance"
                 )
             }
-            (None, Some(radians)) if !matches!(method, Method::AdaptiveSplitting { .. }) => writeln!(
+            (None, Some(radians)) if method == Method::RungeKutta8 => writeln!(
                 f,
                 "not emitted: with `emit(splitting)` a first step of {radians:.0} radians of the stiff dilatation would be tried, and \
                  splitting be taken, which is cheaper, where it meets this tolerance"
