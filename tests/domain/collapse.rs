@@ -78,7 +78,7 @@ fn a_determinant_that_touches_zero() {
     struct Free;
     let start = Free.at_velocity(Matrix::<2>::identity(), -Matrix::<2>::identity()).unwrap();
     for (method, words) in
-        [(Method::Automatic, "det phi is zero at t = 1"), (Method::RungeKutta8, "and may vanish next to it")]
+        [(Method::Automatic, "det phi = 0 at t = 1"), (Method::RungeKutta8, "and may vanish next to it")]
     {
         let halt = Simulation::new(&Free, start).until(10.0).method(method).run().unwrap_err();
         let Reason::Placement { determinant, t, .. } = halt.stop.reason else { panic!("{halt}") };

@@ -204,9 +204,9 @@ impl fmt::Display for Reason {
             ),
             Reason::Placement { determinant, rate, t } => {
                 match determinant {
-                    0.0 => write!(f, "det phi is zero at t = {t}")?,
+                    0.0 => write!(f, "det phi = 0 at t = {t}")?,
                     // What of it is known next to there is the rate.
-                    d if *d > 0.0 => write!(f, "det phi falls to {d:e} at t = {t}, and may vanish next to it")?,
+                    d if *d > 0.0 => write!(f, "det phi = {d:e} at t = {t}, and may vanish next to it")?,
                     d => write!(f, "det phi = {d:e}, and not positive from t = {t} on")?,
                 }
                 if let Some(rate) = rate {
