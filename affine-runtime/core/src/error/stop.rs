@@ -204,7 +204,7 @@ impl fmt::Display for Reason {
             ),
             Reason::Placement { determinant, rate, t } => {
                 match determinant {
-                    0.0 => write!(f, "det phi = 0 at t = {t}")?,
+                    0.0 => write!(f, "det phi = 0 at t = {t}, not positive")?,
                     // What of it is known next to there is the rate.
                     d if *d > 0.0 => write!(f, "det phi = {d:e} at t = {t}, and may vanish next to it")?,
                     d => write!(f, "det phi = {d:e}, and not positive from t = {t} on")?,
