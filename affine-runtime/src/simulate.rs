@@ -20,6 +20,7 @@ mod departure;
 mod digest;
 mod distortion;
 mod domain;
+mod energy;
 mod ensemble;
 mod event;
 mod failed;

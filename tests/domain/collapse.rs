@@ -70,3 +70,20 @@ fn one_reason() {
         assert!(determinant.abs() < 2.0 * near * rate.abs(), "{label}: {determinant:e} {rate}");
     }
 }
+
+/// `det phi = (1 - t)^2` is zero once, and positive before and after: what is said of it is true of it.
+#[test]
+fn a_determinant_that_touches_zero() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1))]
+    struct Free;
+    let start = Free.at_velocity(Matrix::<2>::identity(), -Matrix::<2>::identity()).unwrap();
+    for (method, words) in
+        [(Method::Automatic, "det phi = 0 at t = 1"), (Method::RungeKutta8, "and may vanish next to it")]
+    {
+        let halt = Simulation::new(&Free, start).until(10.0).method(method).run().unwrap_err();
+        let Reason::Placement { determinant, t, .. } = halt.stop.reason else { panic!("{halt}") };
+        let said = halt.to_string();
+        assert!((0.0..1e-30).contains(&determinant) && (t - 1.0).abs() < 1e-14, "{said}");
+        assert!(said.contains(words) && !said.contains("not positive from"), "{method:?}: {said}");
+    }
+}

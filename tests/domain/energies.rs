@@ -1,5 +1,6 @@
 //! The energy as a witness.
 
+use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::Reason;
 
@@ -31,6 +32,50 @@ fn a_fall_into_the_centre() {
 fn an_eccentric_orbit_is_no_fall() {
     for tolerance in [1e-3, 1e-6, 1e-10] {
         let run = Simulation::new(&Kepler, kepler(0.1)).until(5.0).tolerance(tolerance).run().unwrap();
+        assert!(!run.why().to_string().contains("energy is off"), "{}", run.why());
+    }
+}
+
+/// Long explicit steps damp a stiff dilatation as far as a loose tolerance allows: nothing ends, and what is lost is named. A
+/// tolerance that keeps most of it is not warned of, nor one that the motion is followed at.
+#[test]
+fn a_stiff_vibration_that_is_damped_is_named() {
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.3, body_inertia = 1), potential = kappa*q^2 + 0.1*phi[1,1])]
+    struct Stiff {
+        kappa: f64,
+    }
+    let run = |kappa: f64, tolerance: f64| {
+        let model = Stiff { kappa }.prepare().unwrap();
+        let (phi, phi_dot) = (Matrix::<2>::new(1.02, 0.1, 0.0, 1.03), Matrix::<2>::new(0.3, 0.5, -0.2, 0.1));
+        let start = model.at_velocity(phi, phi_dot).unwrap();
+        Simulation::new(&model, start).until(1.0).tolerance(tolerance).run().unwrap()
+    };
+    for (kappa, tolerance, is_named) in [
+        (1e6, 1e-1, true),
+        (1e6, 1e-2, true),
+        (1e8, 1e-1, true),
+        (1e8, 1e-2, true),
+        (1e6, 1e-3, false),
+        (1e8, 1e-4, false),
+        (1e6, 1e-10, false),
+    ] {
+        let run = run(kappa, tolerance);
+        let lost = run.conservation().of(Conserved::Energy).unwrap().relative();
+        assert_eq!(lost > 0.5, is_named, "{kappa:e}, {tolerance:e}: {lost:e}");
+        let why = run.why().to_string();
+        assert_eq!(why.contains("energy is off"), is_named, "{kappa:e}, {tolerance:e}: {why}");
+    }
+}
+
+/// A vibration of a tenth of the tolerance, about: steps that follow it keep its energy, whatever is allowed.
+#[test]
+fn a_tiny_vibration_is_not_warned_of() {
+    #[affine_model(dim = 2, kinetic(casimir2 = 0.3, body_inertia = 1), potential = 100*q^2)]
+    struct Tiny;
+    for (amplitude, tolerance) in [(1e-4, 1e-3), (1e-7, 1e-6), (1e-11, 1e-10)] {
+        let phi = Matrix::<2>::identity() * (1.0 + amplitude);
+        let start = Tiny.at_velocity(phi, Matrix::<2>::zeros()).unwrap();
+        let run = Simulation::new(&Tiny, start).until(1.0).tolerance(tolerance).run().unwrap();
         assert!(!run.why().to_string().contains("energy is off"), "{}", run.why());
     }
 }

@@ -192,3 +192,33 @@ fn bodies_in_lanes_are_looked_at_where_they_begin() {
     assert!(number == 1 && matches!(stop.reason, Reason::Friction { order: 4, .. }), "{stop}");
     assert_eq!(flows.stopped().count(), 1);
 }
+
+/// Velocities die out at the rate `r`; what is found of it is known to four percent. A step of the length that is said to be allowed
+/// is allowed, however that was rounded.
+#[test]
+fn what_is_said_of_a_rate_is_known() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = orthogonality(1),
+        dissipation(dalembert = r),
+        emit(splitting)
+    )]
+    struct Plain {
+        r: f64,
+    }
+    for (r, said) in [
+        (100.0, "a rate of about 1.0e2:"),
+        (146.0, "1.5e2"),
+        (1e6, "a rate of about 1.0e6:"),
+        (3.3e4, "3.3e4"),
+    ] {
+        let model = Plain { r }.prepare().unwrap();
+        let start = model.at_velocity(flat_phi(), flat_rate()).unwrap();
+        let run = |step: f64| Simulation::new(&model, start).until(step).method(METHOD(4, step)).run();
+        let halt = run(20.0 / r).unwrap_err().to_string();
+        assert!(halt.contains(said), "{halt}");
+        let allowed = halt.split("at most ").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
+        assert!(run(allowed.parse().unwrap()).is_ok(), "{halt}");
+    }
+}

@@ -7,5 +7,6 @@ mod confined;
 mod fields;
 mod models;
 mod motions;
+mod not_emitted;
 mod pieces;
 mod together;

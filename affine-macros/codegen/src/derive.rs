@@ -105,6 +105,10 @@ pub fn derive(form: Form, require_positive: bool) -> Option<Model> {
         signature: conditions::signature(arena, &motion, hessian.as_ref(), positive, require_positive),
         has_forces: !body.is_free(),
         groups: (form.space_group, form.body_group),
+        dilates: match &pieces.splitting {
+            Some(pieces) => pieces.dilates(),
+            None => body.dilates(arena, &reduction),
+        },
         formulas,
     };
     let conditions = match &stated {

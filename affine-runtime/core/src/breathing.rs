@@ -22,8 +22,7 @@ impl<T: Scalar> Breathing<T> {
     /// No motion: what stands in lanes, whose bodies move along paths of different kinds that no equation reads.
     #[must_use]
     pub fn none() -> Self {
-        let path = Path::Free { q: T::zero(), v: T::zero() };
-        Self { t0: T::zero(), inverse_mass: T::zero(), path }
+        Self { t0: T::zero(), inverse_mass: T::zero(), path: Path::Free { q: T::zero(), v: T::zero() } }
     }
 }
 
@@ -83,8 +82,7 @@ impl<T: Real> Breathing<T> {
             return Self::free(t0, q, p, inverse_mass);
         }
         let (y, v) = ((scale * q).sinh(), scale * p * inverse_mass);
-        let path = elliptic(scale, squared, y, v);
-        Self { t0, inverse_mass, path }
+        Self { t0, inverse_mass, path: elliptic(scale, squared, y, v) }
     }
 
     /// `q` and `p = m q'` at time `t`; NaN where the motion has left the range of numbers before.

@@ -45,6 +45,9 @@ pub struct Description {
     pub second_order: bool,
     /// Are the reduced equations operations alone, as `emit(taylor)` takes their series?
     pub series: bool,
+    /// Does the dilatation move along a closed form of its own among the pieces that `emit(splitting)` integrates by?
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub dilates: bool,
     /// Functions of the state that keep their sign where the potential has a value; empty where that is everywhere.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::list"))]
     pub domain: &'static [Guard],
@@ -77,6 +80,7 @@ impl Description {
         constraint: None,
         second_order: false,
         series: true,
+        dilates: false,
         domain: &[],
         custom_potential: false,
         angles: &[],

@@ -16,18 +16,16 @@ pub(super) struct History {
 /// One quantity.
 pub(super) struct Row {
     name: &'static str,
-    /// Largest relative drift up to each output.
-    pub(super) worst_so_far: Vec<f64>,
+    /// Largest relative drift over outputs and end.
+    worst: f64,
+    /// Times of outputs and end, with the largest relative drift up to there.
+    pub(super) worst_so_far: Vec<(f64, f64)>,
 }
 
 impl Row {
-    fn worst(&self) -> f64 {
-        self.worst_so_far.last().copied().unwrap_or(0.0)
-    }
-
     /// Name and largest drift.
     pub(super) fn label(&self) -> String {
-        format!("{}: {:.0e}", self.name, self.worst())
+        format!("{}: {:.0e}", self.name, self.worst)
     }
 }
 
@@ -35,16 +33,19 @@ impl History {
     /// As many of a trajectory's conserved quantities as there are colours, those that drift most.
     pub(super) fn of<const N: usize, P: Phase<N>>(trajectory: &Trajectory<N, P>) -> Self {
         let row = |drift: &Drift| {
-            let mut worst = 0.0;
-            let history = trajectory.relative_drifts(drift).into_iter().map(|value| {
-                worst = larger(worst, value);
-                worst
+            let (times, (end, _)) = (trajectory.times(), trajectory.end());
+            let mut so_far = 0.0;
+            let outputs = times.iter().zip(trajectory.relative_drifts(drift)).map(|(t, value)| {
+                so_far = larger(so_far, value);
+                (*t, so_far)
             });
-            Row { name: drift.quantity.name(), worst_so_far: history.collect() }
+            let worst = drift.relative();
+            let at_end = (times.last() != Some(&end)).then_some((end, worst));
+            Row { name: drift.quantity.name(), worst, worst_so_far: outputs.chain(at_end).collect() }
         };
         let all: Vec<Row> = trajectory.conservation().drifts().iter().map(row).collect();
-        let (exact, mut rows): (Vec<Row>, Vec<Row>) = all.into_iter().partition(|row| row.worst() == 0.0);
-        rows.sort_by(|a, b| b.worst().total_cmp(&a.worst()));
+        let (exact, mut rows): (Vec<Row>, Vec<Row>) = all.into_iter().partition(|row| row.worst == 0.0);
+        rows.sort_by(|a, b| b.worst.total_cmp(&a.worst));
         let smaller = rows.len().saturating_sub(category_count());
         rows.truncate(category_count());
         Self { rows, smaller, exact: exact.len() }
@@ -65,7 +66,7 @@ impl History {
 
     /// Logarithmic axis that holds all rows.
     pub(super) fn axis(&self) -> Axis {
-        let values = self.rows.iter().flat_map(|row| row.worst_so_far.iter().copied());
+        let values = self.rows.iter().flat_map(|row| row.worst_so_far.iter().map(|(_, worst)| *worst));
         Axis::decades(values, 5, |value| format!("{value:e}"))
     }
 }

@@ -72,8 +72,7 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
         let panel = Panel { area: DRIFTS, x: samples.time_axis(), y: history.axis() };
         panel.frame(canvas, "t", "relative drift");
         for (index, row) in history.rows().iter().enumerate() {
-            let points = self.times().iter().copied().zip(row.worst_so_far.iter().copied());
-            panel.curve(canvas, points, Pen::new(category(index), 1.6));
+            panel.curve(canvas, row.worst_so_far.iter().copied(), Pen::new(category(index), 1.6));
         }
         let mut spot = (LEGEND, DRIFTS.top + 6.0);
         for (index, row) in history.rows().iter().enumerate() {

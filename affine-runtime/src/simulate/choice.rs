@@ -4,10 +4,9 @@ use super::course::{Choice, Course};
 use super::friction::{Fastest, is_stiff, rate_of_friction};
 use super::layout::carries_dilatation;
 use super::method::Method;
-use super::range::in_range;
+use super::range::by_halves;
 use super::stiffness::{Trial, stiffness};
 use crate::model::{Description, Model};
-use crate::state::Phase;
 
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted: above it they cost more at
 /// equal errors on some benchmark problem. On P6 they cost less from an error of 1e-8 on, on P2 from 1e-10, on P8 and P1 from
@@ -24,10 +23,7 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     course: &Course<'_, M::Point<f64>>,
     choice: &mut Choice,
 ) {
-    // Within steps a Nystrom method costs a step for each time that is looked at.
-    let in_reach = const { !carries_dilatation(&M::DESCRIPTION) }
-        || in_range(course.t0, model.orthonormal(course.start).phi()).is_ok();
-    let by_halves = !course.within_steps && in_reach;
+    let by_halves = by_halves::<N, M>(model, course);
     let Fastest { rate, evaluations } = match course.method {
         Method::Automatic => rate_of_friction::<N, M>(model, (course.t0, course.start)),
         _ => Fastest::default(),

@@ -1,5 +1,6 @@
 //! Steps to the end of an integration, with output, events and callbacks on the way.
 
+use super::course::Course;
 use super::domain::turns;
 use super::failed::failed;
 use super::friction::is_stiff;
@@ -135,6 +136,15 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             self.turn = Some(Turn::Anew { t, point, work: self.place.work() + work });
         }
         stiff
+    }
+
+    /// Notes what many explicit steps were taken in place of. A run that is too short for a trial takes fewer.
+    pub(super) fn look_back(&mut self, course: &Course<'_, P>) {
+        let Trajectory { computation, statistics, .. } = &mut *self.trajectory;
+        let is_chosen = course.method == Method::Automatic && computation.method == Method::RungeKutta8;
+        if is_chosen && statistics.steps >= STEPS_UNTIL_A_LOOK {
+            computation.stiffness = self.model.would_pass_over(course);
+        }
     }
 
     /// Keeps the step in which the time turns an angle of the potential furthest.

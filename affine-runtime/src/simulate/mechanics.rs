@@ -4,6 +4,7 @@ use super::course::{Choice, Course};
 use super::cubic::{Knot, on_cubic};
 use super::friction::rate_of_friction;
 use super::motion::{Boxed, Motion, PointOf, Purpose};
+use super::stiffness::would_pass_over;
 use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::geodesic::Geodesic;
@@ -25,6 +26,8 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn power(&self, t: f64, point: &P) -> f64;
     /// How fast friction takes velocities away at a point, where that is known.
     fn rate_of_friction(&self, t: f64, point: &P) -> Option<f64>;
+    /// How many radians of a stiff dilatation steps by pieces would pass over, which were not emitted.
+    fn would_pass_over(&self, course: &Course<'_, P>) -> Option<f64>;
     fn domain(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
     fn velocity(&self, point: &P) -> Velocity<N>;
     /// Sets a knot to a point.
@@ -79,6 +82,9 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
     }
     fn rate_of_friction(&self, t: f64, point: &M::Point<f64>) -> Option<f64> {
         rate_of_friction::<N, M>(self.handle.model(), (t, point)).rate
+    }
+    fn would_pass_over(&self, course: &Course<'_, M::Point<f64>>) -> Option<f64> {
+        would_pass_over::<N, M>(self.handle.model(), course)
     }
     fn domain(&self, t: f64, point: &M::Point<f64>, each: &mut dyn FnMut(f64)) {
         self.handle.model().domain(t, point, each);

@@ -4,12 +4,13 @@ use super::checkpoint::{Checkpoint, Place};
 use super::course::{Choice, Course};
 use super::dense::Dense;
 use super::distortion::distinctness;
+use super::energy::Energy;
 use super::fingerprint::fingerprint;
 use super::layout::total;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::outcome::{Halt, Outcome};
-use super::point::{Energy, check};
+use super::point::check;
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::simulation::Simulation;
@@ -236,7 +237,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                 let mut choice = Choice::default();
                 let motion = self.model.begin(&course, &mut choice);
                 recorder.note(&choice);
-                recorder.follow(&mut *motion?)
+                let outcome = recorder.follow(&mut *motion?);
+                recorder.look_back(&course);
+                outcome
             }
         }
     }

@@ -68,10 +68,11 @@ pub struct Computation {
     #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::inner::optional_word"))]
     pub missing: Option<Word>,
     /// How many radians of the fastest motion a step by pieces can be long, where that is why [`Method::Automatic`] takes
-    /// [`Method::AdaptiveSplitting`].
+    /// [`Method::AdaptiveSplitting`]; where pieces were not emitted and it took 512 explicit steps or more, how many it would
+    /// try with them.
     #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub stiffness: Option<f64>,
-    /// The rate at which friction takes velocities away, where that is why [`Method::Automatic`] takes [`Method::Radau`].
+    /// The rate at which friction takes velocities away, or up to four percent more, where that is why [`Method::Automatic`] takes [`Method::Radau`].
     #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub friction: Option<f64>,
     /// From when on, where another method took the motion there.
@@ -87,8 +88,8 @@ pub struct Computation {
     #[cfg_attr(feature = "serde", serde(default, with = "crate::inner::number"))]
     pub residual: Option<f64>,
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then, where that
-    /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth; 0 elsewhere, and where the
-    /// energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
+    /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth, or more than a tenth and more
+    /// than a change of the placement by 1e-7 of itself is worth; 0 elsewhere, and where the energy is neither conserved nor balanced by a work. An event that changes the point starts it anew.
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub energy_defect: f64,
     /// How many times the largest `|T| + |U|` met the forces that no potential has would take or give within one of the equal

@@ -89,6 +89,25 @@ impl Why {
         }
     }
 
+    /// What [`Method::Automatic`] did without. Whether a tolerance allows steps by pieces, these alone tell for sure.
+    fn not_emitted(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Computation { method, missing, stiffness, .. } = self.computation;
+        match (missing, stiffness) {
+            (Some(key), _) => {
+                writeln!(
+                    f,
+                    "not emitted: `emit({key})` would give a method that is cheaper at this tolerance"
+                )
+            }
+            (None, Some(radians)) if method == Method::RungeKutta8 => writeln!(
+                f,
+                "not emitted: with `emit(splitting)` a first step of {radians:.0} radians of the stiff dilatation would be tried, and \
+                 splitting be taken, which is cheaper, where it meets this tolerance"
+            ),
+            _ => Ok(()),
+        }
+    }
+
     fn nystrom(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Computation { asked, method, tolerance, .. } = self.computation;
         let (order, range) = match method {
@@ -116,7 +135,7 @@ impl Why {
             Some(rate) => {
                 write!(
                     f,
-                    "friction takes velocities away at a rate of {rate:.2e}, more than {STIFF_FRICTION} times "
+                    "friction takes velocities away at a rate of about {rate:.1e}, more than {STIFF_FRICTION} times "
                 )?;
                 match stiff_since {
                     Some(t) => write!(f, "from t = {t} on, where these steps began")?,
@@ -400,9 +419,7 @@ impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.description.name)?;
         self.method(f)?;
-        if let Some(key) = self.computation.missing {
-            writeln!(f, "not emitted: `emit({key})` would give a method that is cheaper at this tolerance")?;
-        }
+        self.not_emitted(f)?;
         self.group(f)?;
         self.signature(f)?;
         self.condition(f)?;

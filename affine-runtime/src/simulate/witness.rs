@@ -1,7 +1,7 @@
 //! The energy as a witness: a motion that has lost it is not the one that was asked for.
 
+use super::energy::Energy;
 use super::mechanics::Mechanics;
-use super::point::Energy;
 use crate::error::Reason;
 use crate::inner::{larger, norm};
 use crate::model::{Conserved, Description, Quantity};
@@ -11,10 +11,10 @@ use crate::state::Phase;
 const LOST: f64 = 0.1;
 /// So many tolerances off, the energy is named in what is said of a run.
 const WORTH_NAMING: f64 = 1e4;
-/// No energy counts as off that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
-/// stiff ones that steps pass over, and of rounding.
+/// No energy ends a run that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
+/// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run.
 const RESOLVED: f64 = 10.0;
-/// Nor one that a change of the placement by so much of itself is worth, at which the rounding of an energy may hide what is
+/// Nothing is said at all of one that a change of the placement by so much of itself is worth, at which the rounding of an energy may hide what is
 /// quadratic in the change.
 const ROUNDING: f64 = 1e-7;
 
@@ -72,12 +72,17 @@ impl Witness {
         self.scale = larger(self.scale, at_point.size());
         let defect = (energy - work - before).abs();
         let named = self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance));
-        let reach = self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance));
-        if defect <= named * self.scale || defect <= worth(model, (t, point), energy, reach) {
+        if defect <= named * self.scale {
             return Ok(());
         }
-        self.worst = larger(self.worst, defect / self.scale);
-        match self.tolerance.is_some() && defect > LOST * self.scale {
+        let is_worth = |reach: f64| defect <= worth(model, (t, point), energy, reach);
+        let is_lost = defect > LOST * self.scale;
+        let is_allowed =
+            is_worth(self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance)));
+        if !is_allowed || (is_lost && !is_worth(ROUNDING)) {
+            self.worst = larger(self.worst, defect / self.scale);
+        }
+        match self.tolerance.is_some() && is_lost && !is_allowed {
             true => Err(Reason::EnergyLost { defect, scale: self.scale, t }),
             false => Ok(()),
         }

@@ -20,7 +20,7 @@ use affine_runtime::model::Model;
 use affine_runtime::report::{
     Curve, CurveDiagram, CurvePanel, WorkPrecision, WorkPrecisionDiagram, WorkPrecisionReport,
 };
-use affine_runtime::simulate::{Reason, Setting};
+use affine_runtime::simulate::{Drift, Reason, Setting};
 use affine_runtime::state::{Phase, Pinned};
 use affine_runtime::{__private, Error, Method, Simulation};
 use simulation::models::drunk_missile::{self, DrunkMissile};
@@ -325,6 +325,33 @@ fn drifts_at_the_outputs_end_where_the_conservation_table_does() {
         let history = run.relative_drifts(drift);
         assert_eq!((history.len(), history[0]), (run.len(), 0.0), "{}", drift.quantity.symbol());
         assert_eq!(history.into_iter().fold(0.0, f64::max), drift.relative(), "{}", drift.quantity.symbol());
+    }
+}
+
+/// What stands in the legend is what the table has, wherever outputs are: the end counts.
+#[test]
+fn drifts_at_the_end_are_drawn_without_outputs_too() {
+    let run = |outputs: &[f64]| {
+        let run = Simulation::new(&DrunkMissile, drunk_missile::start()).until(10.0);
+        run.method(Method::Gauss { stages: 2, step: 0.3 }).output(outputs.iter().copied()).run().unwrap()
+    };
+    for outputs in [&[][..], &[0.0, 5.0], &[0.0, 5.0, 10.0]] {
+        let run = run(outputs);
+        let (conservation, picture) = (run.conservation(), run.to_svg());
+        let picture = Picture::of(&picture);
+        let (kept, drifting): (Vec<&Drift>, Vec<&Drift>) =
+            conservation.drifts().iter().partition(|drift| drift.absolute == 0.0);
+        // There are as many colours.
+        assert!(!drifting.is_empty() && drifting.len() <= 6, "{outputs:?}: {conservation}");
+        for drift in drifting {
+            let label = format!("{}: {:.0e}", drift.quantity.name(), drift.relative());
+            assert!(picture.texts().any(|text| text == label), "{label} for {outputs:?}");
+        }
+        let remark = picture.texts().find(|text| text.starts_with("no drift"));
+        assert_eq!(
+            remark.map(str::to_owned),
+            (!kept.is_empty()).then(|| format!("no drift: {} more", kept.len()))
+        );
     }
 }
 

@@ -12,6 +12,7 @@ use crate::mechanics::potential::Potential;
 use crate::mechanics::reduction::drift::Drift;
 use crate::mechanics::reduction::{Reduction, Wanted, reductions};
 use crate::mechanics::shared::CentreVelocity;
+use crate::mechanics::splitting::dilates;
 use crate::mechanics::term::Frame;
 use crate::symbol::{Asked, Capability};
 
@@ -73,6 +74,11 @@ impl Body<'_> {
         // The translational energy is quadratic in p: at p = 0 its flow stands still.
         let at_rest = !self.motion.masses.are_none() && Drift::of(arena, self).is_none();
         Some((ClosedForm::of(h)?, at_rest))
+    }
+
+    /// Would pieces of a reduced motion move the dilatation along a closed form of its own, asked for or not?
+    pub(super) fn dilates(&self, arena: &mut Arena, reduction: &Reduction) -> bool {
+        self.motion.hamiltonian().is_some_and(|h| dilates(arena, (h, self), reduction))
     }
 
     /// What has to be integrated, in each way that may be the shortest.

@@ -104,6 +104,8 @@ pub struct Facts {
     pub has_forces: bool,
     /// Symmetry groups of space and body that leave the kinetic energy unchanged.
     pub groups: (Group, Group),
+    /// Would splitting move the dilatation along a closed form of its own?
+    pub dilates: bool,
     /// `T`, `H`, and the equations.
     pub formulas: Formulas,
 }

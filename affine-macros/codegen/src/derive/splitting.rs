@@ -86,6 +86,12 @@ impl FlowProgram {
 }
 
 impl Programs {
+    /// Does one of the pieces move the dilatation along a closed form?
+    pub fn dilates(&self) -> bool {
+        let mut flows = self.pieces.iter().flat_map(|(_, flows)| flows);
+        flows.any(|flow| matches!(flow, FlowProgram::Dilatation { .. }))
+    }
+
     /// The pieces of the chosen reduction, and the forms that they need on their principal axes; coefficients that a
     /// trajectory fixes join `constants`.
     pub(super) fn of(

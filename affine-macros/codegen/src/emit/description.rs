@@ -226,6 +226,7 @@ pub(super) fn constant(context: &Context) -> TokenStream {
         ("constraint", context.constraint().map(some)),
         ("second_order", second_order.then(|| quote!(true))),
         ("series", (!model.dynamics.reduced.has_series()).then(|| quote!(false))),
+        ("dilates", model.description.dilates.then(|| quote!(true))),
         ("domain", list(domain::guards(context))),
         ("custom_potential", domain::is_custom(context).then(|| quote!(true))),
         ("angles", list(domain::angles(context))),

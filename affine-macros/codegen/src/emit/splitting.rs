@@ -33,9 +33,7 @@ pub(super) fn splitting_impl(context: &Context) -> TokenStream {
         several => (chosen(several), quote!(piece), moves),
     };
     let programs = || pieces.iter().flat_map(|(_, flows)| flows).map(FlowProgram::program);
-    let dilates =
-        pieces.iter().flat_map(|(_, flows)| flows).any(|flow| matches!(flow, FlowProgram::Dilatation { .. }));
-    let dilates = dilates.then(|| {
+    let dilates = context.model.description.dilates.then(|| {
         quote!(
             const DILATES: ::core::primitive::bool = true;
         )

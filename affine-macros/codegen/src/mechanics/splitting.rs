@@ -133,6 +133,12 @@ pub fn splitting(
     Some(Splitting { pieces, principal, nystrom })
 }
 
+/// Is there a dilatation with a closed form that stays in the state, among pieces whose flows are all known?
+pub fn dilates(arena: &mut Arena, (h, body): (&Hamiltonian, &Body), reduction: &Reduction) -> bool {
+    own_dilatation(arena, h, body.potential, reduction).is_some()
+        && splitting(arena, (h, body), reduction).is_some()
+}
+
 /// A dilatation with a closed form that stays in the state, for translation or the potential couples it to the rest.
 struct OwnDilatation {
     separation: Separation,

@@ -29,8 +29,8 @@ pub enum Reason {
     NotFinite,
     /// The placement lost its orientation or degenerated.
     Placement {
-        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it; 0 where a closed form
-        /// turns inside out and back on the way to the time asked for.
+        /// `det phi` of the first bad phase point met; of the last good one where no step leads on from it, or where the next double
+        /// of the time may lie beyond a zero; 0 where a closed form turns inside out and back on the way to the time asked for.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         determinant: f64,
         /// The rate of `det phi` along the motion at the last good phase point; `None` for a start.
@@ -73,8 +73,8 @@ pub enum Reason {
     },
     /// The energy, less the work of the forces that no potential has, is no longer what it was at the start: the steps have
     /// lost the motion, as they do where they pass over a singularity. Explicit steps that are too long for a stiff vibration damp
-    /// it, and its energy is lost with it: at a looser tolerance that is within what is allowed, and at a tighter one steps follow
-    /// the vibration; in between the run ends here.
+    /// it, and its energy is lost with it: at a looser tolerance that is within what is allowed, and only said by `why()`; at a
+    /// tighter one steps follow the vibration; in between the run ends here.
     EnergyLost {
         /// `|H(t) - H(t0) - W(t)|`.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
@@ -102,7 +102,7 @@ pub enum Reason {
     Friction {
         /// The order.
         order: usize,
-        /// The rate at which velocities are taken away.
+        /// The rate at which velocities are taken away, or up to four percent more.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         rate: f64,
         /// The longest step of this order under such friction.
@@ -203,13 +203,18 @@ impl fmt::Display for Reason {
                  run before, or change the potential",
             ),
             Reason::Placement { determinant, rate, t } => {
-                write!(f, "det phi = {determinant:e}, and not positive from t = {t} on")?;
+                match determinant {
+                    0.0 => write!(f, "det phi = 0 at t = {t}, not positive")?,
+                    // What of it is known next to there is the rate.
+                    d if *d > 0.0 => write!(f, "det phi = {d:e} at t = {t}, and may vanish next to it")?,
+                    d => write!(f, "det phi = {d:e}, and not positive from t = {t} on")?,
+                }
                 if let Some(rate) = rate {
                     write!(f, ", with the rate {rate:.3e} before")?;
                 }
                 f.write_str(
-                    ": the body has collapsed or turned inside out, and leaves the configuration space GL+(n); a potential \
-                     that grows without bound as det phi -> 0 prevents it",
+                    ": the body collapses or turns inside out, and leaves the configuration space GL+(n); a potential that \
+                     grows without bound as det phi -> 0 prevents it",
                 )
             }
             Reason::Distortion { determinant, t } => write!(
@@ -247,9 +252,10 @@ impl fmt::Display for Reason {
             ),
             Reason::Friction { order, rate, longest } => write!(
                 f,
-                "friction takes velocities away at a rate of {rate:.2e}: splitting of order {order}, like all above 2, goes \
+                "friction takes velocities away at a rate of about {rate:.1e}: splitting of order {order}, like all above 2, goes \
                  back in time on its way, where friction gives back what it has taken, and more the longer the step; take order \
-                 2, steps of at most {longest:.1e}, or Method::Radau {{ stages: None }}"
+                 2, steps of at most {:.1e}, or Method::Radau {{ stages: None }}",
+                two_digits_of(*longest)
             ),
             Reason::Range { q, t } => write!(
                 f,
@@ -300,6 +306,12 @@ impl fmt::Display for Reason {
             Reason::Interrupted(Callback::Observer) => f.write_str("the observer ended the run"),
         }
     }
+}
+
+/// Two digits of a positive number that are not above it: what is said to be allowed is.
+fn two_digits_of(number: f64) -> f64 {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(number)) - 1.0);
+    if unit.is_normal() { libm::floor(number / unit) * unit } else { number }
 }
 
 impl fmt::Display for Stop {
