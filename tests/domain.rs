@@ -13,5 +13,7 @@ mod far_away;
 mod listed;
 #[path = "domain/singular.rs"]
 mod singular;
+#[path = "domain/stretched.rs"]
+mod stretched;
 #[path = "domain/time.rs"]
 mod time;

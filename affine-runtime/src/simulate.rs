@@ -44,6 +44,7 @@ mod npy;
 mod orientation;
 mod outcome;
 mod output;
+mod pace;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod point;

@@ -1,4 +1,5 @@
-//! One motion into `det phi = 0` has one reason, whatever the method and the tolerance.
+//! One motion into `det phi = 0` has one reason, whatever the method and the tolerance, also where rounding hides the mass matrix of a
+//! sum before.
 
 use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Stop};
@@ -86,4 +87,137 @@ fn a_determinant_that_touches_zero() {
         assert!((0.0..1e-30).contains(&determinant) && (t - 1.0).abs() < 1e-14, "{said}");
         assert!(said.contains(words) && !said.contains("not positive from"), "{method:?}: {said}");
     }
+}
+
+/// A sum whose mass matrix is positive definite at every placement, and known to be.
+#[affine_model(dim = 2, kinetic(body_inertia = 1, dalembert = 1), potential = -0.5*tr(G^-1))]
+struct Sum;
+
+/// The same with a field, so that runs look after the mass matrix.
+#[affine_model(dim = 2, kinetic(body_inertia = k, dalembert = 1), potential = -0.5*k*tr(G^-1))]
+struct Watched {
+    k: f64,
+}
+
+/// In space.
+#[affine_model(dim = 3, kinetic(body_inertia = k, dalembert = 1), potential = -0.5*k*tr(G^-1))]
+struct Solid {
+    k: f64,
+}
+
+const METHODS: [Method; 4] =
+    [Method::Automatic, Method::RungeKutta8, Method::RungeKutta5, Method::Radau { stages: None }];
+
+/// `phi = U diag(a_1 + c_1 t, ...) V` with rotations and `c_i = 1` or `-1` is a motion: `T + U = sum (1 + 1/a^2) a'^2/2 - 1/(2 a^2)` is
+/// a sum over the axes, each term of which is 1/2.
+fn turned<const N: usize>(diagonal: Vector<N>) -> Matrix<N> {
+    let mut turn = [Matrix::<N>::identity(), Matrix::<N>::identity()];
+    for (turn, angle) in turn.iter_mut().zip([0.7_f64, -1.1]) {
+        for k in 1..N {
+            let (mut plane, angle) = (Matrix::<N>::identity(), angle * k as f64);
+            (plane[(0, 0)], plane[(k, k)]) = (angle.cos(), angle.cos());
+            (plane[(0, k)], plane[(k, 0)]) = (-angle.sin(), angle.sin());
+            *turn *= plane;
+        }
+    }
+    turn[0] * Matrix::<N>::from_fn(|i, k| if i == k { diagonal[i] } else { 0.0 }) * turn[1]
+}
+
+fn ends_at<const N: usize, M: Model<N>>(
+    name: &str,
+    model: &M,
+    methods: &[Method],
+    at: impl Fn(Matrix<N>, Matrix<N>) -> affine_runtime::Result<M::Point<f64>>,
+) {
+    let (exact, mut diagonal, mut rates) =
+        (1.1, Vector::<N>::from_element(0.9), Vector::<N>::from_element(1.0));
+    (diagonal[0], rates[0]) = (exact, -1.0);
+    for sign in [1.0, -1.0] {
+        let start = at(turned(diagonal), turned(rates * sign)).unwrap();
+        for (tolerance, method) in [1e-4, 1e-8, 1e-11].iter().flat_map(|t| methods.iter().map(|m| (*t, *m))) {
+            let label = format!("{name} {sign} {method:?} at {tolerance:e}");
+            let run = Simulation::new(model, start).until(20.0 * sign).tolerance(tolerance).method(method);
+            let stop = run.run().unwrap_err().stop;
+            let Reason::Placement { determinant, rate, t } = stop.reason else { panic!("{label}: {stop}") };
+            assert!((t - exact * sign).abs() < 2e-6 + 10.0 * tolerance, "{label}: {t}");
+            // The others have grown to 2 by then; the velocity has few digits left.
+            let expected = -sign * 2.0_f64.powi(N as i32 - 1);
+            assert!(rate.is_some_and(|rate| (rate / expected - 1.0).abs() < 0.5), "{label}: {stop}");
+            assert!(determinant.abs() < 1e-5, "{label}: {determinant:e}");
+            assert!(stop.steps <= 10_000, "{label}: {stop}");
+        }
+        let mut flow = Flow::new(model, (0.0, start)).unwrap();
+        let stop = flow.advance_to(20.0 * sign).unwrap_err();
+        assert!(matches!(stop.reason, Reason::Placement { .. }), "{name} {sign}: {stop}");
+    }
+}
+
+#[test]
+fn sums_collapse_as_others_do() {
+    ends_at("sum", &Sum, &METHODS, |phi, rate| Sum.at_velocity(phi, rate));
+    let watched = Watched { k: 1.0 }.prepare().unwrap();
+    ends_at("watched", &watched, &METHODS, |phi, rate| watched.at_velocity(phi, rate));
+    let solid = Solid { k: 1.0 }.prepare().unwrap();
+    ends_at("solid", &solid, &METHODS[..3], |phi, rate| solid.at_velocity(phi, rate));
+}
+
+/// Its velocities grow on the way into the collapse, and with them what rounding of the mass matrix makes of them.
+#[affine_model(
+    dim = 2,
+    kinetic(body_inertia = 1, space_tensor = [[1.5, 0.1, 0, 0], [0.1, 1, 0, 0], [0, 0, 1.2, 0], [0, 0, 0, 1.1]]),
+    potential = -0.5*tr(G^-1)
+)]
+struct Whirling;
+
+#[test]
+fn steps_that_rounding_makes_short_end_before_a_collapse() {
+    let (phi, rate) = (Matrix::<2>::new(1.1, 0.2, -0.1, 0.9), Matrix::<2>::new(-0.1, -0.3, 0.2, -0.2));
+    let start = Whirling.at_velocity(phi, rate).unwrap();
+    let run = |until: f64, tolerance: f64, method: Method| {
+        Simulation::new(&Whirling, start).until(until).tolerance(tolerance).method(method).output([]).run()
+    };
+    let mut times = Vec::new();
+    for (tolerance, method) in [1e-6, 1e-9, 1e-11].iter().flat_map(|t| METHODS.map(|m| (*t, m))) {
+        let stop = run(20.0, tolerance, method).unwrap_err().stop;
+        let Reason::Placement { t, .. } = stop.reason else { panic!("{method:?} at {tolerance:e}: {stop}") };
+        assert!(stop.steps <= 8192, "{method:?} at {tolerance:e}: {stop}");
+        times.push(t);
+    }
+    let [least, most] = [f64::min, f64::max].map(|choice| times.iter().copied().reduce(choice).unwrap());
+    assert!(most - least < 2e-6, "{times:?}");
+
+    // To an end that they lead to, the same steps go on past where they are looked at.
+    let run = run(1.703_148_3, 1e-11, Method::RungeKutta8).unwrap();
+    assert!(run.statistics().steps > 4096 && run.end().0 > least, "{:?} {least}", run.statistics());
+}
+
+/// A body that is nearly flat once in a while and bounces back goes on.
+#[test]
+fn a_flat_body_that_bounces_goes_on() {
+    /// `U = -1/(2 a^2) + e/(2 a^4)` of each stretch.
+    #[affine_model(
+        dim = 2,
+        kinetic(body_inertia = k, dalembert = 1),
+        potential = -0.5*k*tr(G^-1) + 0.5*e*(tr(G^-1)^2 - 2/I2) + 0.5*tr(G)
+    )]
+    struct Bouncing {
+        k: f64,
+        e: f64,
+    }
+    let model = Bouncing { k: 1.0, e: 1e-8 }.prepare().unwrap();
+    let start =
+        model.at_velocity(turned(Vector::<2>::new(1.1, 0.9)), turned(Vector::<2>::new(-1.0, 0.3))).unwrap();
+    let mut flattest = f64::INFINITY;
+    let run = Simulation::new(&model, start)
+        .until(10.0)
+        .tolerance(1e-10)
+        .observe(|_, point| {
+            let q = point.phi().log_stretches();
+            flattest = flattest.min((q[0] - q[1]).abs().exp().recip());
+            core::ops::ControlFlow::Continue(())
+        })
+        .run()
+        .unwrap();
+    assert!(flattest < 1.5e-4, "{flattest:e}");
+    assert!(run.statistics().steps > 1024, "{:?}", run.statistics());
 }

@@ -1,5 +1,6 @@
 //! When a body collapses.
 
+use super::distortion::{is_rounding, products};
 use super::mechanics::Mechanics;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -27,6 +28,16 @@ pub(super) fn rate_of_determinant<const N: usize, P: Phase<N>>(
     (0..N).map(moved).sum()
 }
 
+/// The part of the products in `det phi` by which that changes along the motion, at a rate, while the body changes by as much as it is.
+pub(super) fn change_of_determinant<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    point: &P,
+    rate: f64,
+) -> f64 {
+    let (phi, phi_dot) = (point.phi(), model.velocity(point).phi_dot);
+    rate / (products(phi) * norm(phi_dot.as_slice()) / norm(phi.as_slice()))
+}
+
 /// Why no step leads on from a point, if that is because the body is about to collapse: `det phi` falls to zero, at the rate that
 /// it has, within the step, of a length where it has one, or within a small part of the time since the start.
 pub(super) fn failing<const N: usize, P: Phase<N>>(
@@ -37,7 +48,9 @@ pub(super) fn failing<const N: usize, P: Phase<N>>(
 ) -> Option<Reason> {
     let determinant = LogDeterminant::of(point.phi()).to_f64();
     let rate = rate_of_determinant(model, point);
-    let falls = rate * (t - since) < 0.0;
+    let ahead = (t - since).signum();
+    let fall = -ahead * change_of_determinant(model, point, rate);
+    let falls = rate * ahead < 0.0 && !is_rounding(determinant, point.phi(), fall);
     let left = (determinant / rate).abs();
     let flatness = determinant / of_sphere(point.phi());
     let is_at_hand = left <= AT_HAND * (t - since).abs();

@@ -9,7 +9,7 @@ use crate::inner::{LogDeterminant, norm};
 const ROUNDED: f64 = 1e-13;
 /// Part of these products below which it may be rounding a step away from there.
 const NEARLY: f64 = 1e-10;
-/// Part of these products that a determinant changes by while the body changes by as much as it is, where it falls to zero.
+/// Part of these products that a determinant falls by while the body changes by as much as it is, where it falls to zero.
 const FALLS: f64 = 1e-6;
 /// Part of a value that rounding may make of a determinant.
 const KNOWN: f64 = 0.1;
@@ -37,20 +37,29 @@ pub(super) fn tells<const N: usize>(phi: &Matrix<N>, value: f64) -> bool {
     value == 0.0 || f64::EPSILON * products(phi) <= KNOWN * value.abs()
 }
 
-/// The reason with what the last good placement tells: where its determinant was next to rounding and did not fall, and what came
-/// of it is rounding of its products, the body has not collapsed. `fall` is the part of these by which it changes while the body
-/// changes by as much as it is.
+/// Why a motion whose stretches differ so much ends at a placement.
+pub(super) fn far_apart<const N: usize>(phi: &Matrix<N>, t: f64) -> Reason {
+    Reason::Distortion { determinant: LogDeterminant::of(phi).to_f64(), t }
+}
+
+/// The determinant is next to the rounding of its products.
+pub(super) fn is_nearly_lost<const N: usize>(phi: &Matrix<N>) -> bool {
+    distinctness(phi) < NEARLY
+}
+
+/// A determinant is the rounding of its products after a placement where it was next to that, and did not fall. `fall` is the part of
+/// these by which it falls while the body changes by as much as it is.
+pub(super) fn is_rounding<const N: usize>(determinant: f64, phi: &Matrix<N>, fall: f64) -> bool {
+    fall < FALLS && determinant.abs() <= ROUNDED * products(phi) && is_nearly_lost(phi)
+}
+
+/// The reason with what the last good placement tells: where the determinant is [rounding](is_rounding), the body has not collapsed.
 pub(super) fn told<const N: usize>(reason: Reason, phi: &Matrix<N>, fall: f64) -> Reason {
-    let is_rounding = |determinant: f64| determinant <= 0.0 && -determinant <= ROUNDED * products(phi);
     match reason {
-        Reason::Placement { determinant, t, .. }
-            if fall < FALLS && is_rounding(determinant) && distinctness(phi) < NEARLY =>
-        {
+        Reason::Placement { determinant, rate: None, t } if is_rounding(determinant, phi, fall) => {
             Reason::Distortion { determinant, t }
         }
-        Reason::Event { t, .. } if distinctness(phi) < ROUNDED => {
-            Reason::Distortion { determinant: LogDeterminant::of(phi).to_f64(), t }
-        }
+        Reason::Event { t, .. } if distinctness(phi) < ROUNDED => far_apart(phi, t),
         other => other,
     }
 }

@@ -28,7 +28,8 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         let outcome = self.step_through(motion, since).map_err(|reason| {
             let end = self.trajectory.end;
             let (good, (point, _)) = motion.kept().unwrap_or((end.0, (end.1, 0.0)));
-            explained(self.model, motion, (good, &point), reason)
+            let Computation { asked, tolerance, .. } = self.trajectory.computation;
+            explained(self.model, motion, (good, &point), reason, (asked, tolerance))
         });
         let trajectory = &mut *self.trajectory;
         let end = trajectory.end.0;
@@ -86,7 +87,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             guard.advance(model, motion)?;
             let t = motion.t();
             self.turned((begin, t));
-            let stands = guard.stands(model, motion);
+            let stands = guard.stands(model, motion, (self.t_end, self.max_steps - self.steps));
             let until = match stands {
                 Err(Reason::Placement { t, .. }) => {
                     let good = motion.kept_at().unwrap_or(self.trajectory.end.0);

@@ -77,7 +77,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
                 return Err(Reason::StepLimit { limit: self.plan.max_steps });
             }
             left -= 1;
-            self.step(t_end)?;
+            self.step(t_end, left)?;
         }
         Ok(())
     }
@@ -133,8 +133,8 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
         Ok(())
     }
 
-    /// Takes a step on the way to an end.
-    fn step(&mut self, t_end: f64) -> Result<(), Reason> {
+    /// Takes a step on the way to an end, with so many steps left after it.
+    fn step(&mut self, t_end: f64, left: u64) -> Result<(), Reason> {
         let model = &self.moving;
         match (&mut self.way, &mut self.guard) {
             (Way::Steps(engine), Some(guard)) => {
@@ -143,11 +143,17 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
                 let determined = self.needs_determinant.then_some(model.handle.model());
                 let stepped = guard
                     .advance(model, motion)
-                    .and_then(|()| guard.stands(model, motion))
+                    .and_then(|()| guard.stands(model, motion, (t_end, left)))
                     .and_then(|is_known| placed::<N, H>(motion, is_known, determined));
                 if let Err(reason) = stepped {
                     let (t, (point, _)) = motion.kept().unwrap_or_else(|| (begin, motion.reached()));
-                    let reason = explained(model, motion, (t, &point), reason);
+                    let reason = explained(
+                        model,
+                        motion,
+                        (t, &point),
+                        reason,
+                        (self.plan.method, self.plan.tolerance),
+                    );
                     self.anew = Some((t, point));
                     return Err(reason);
                 }

@@ -41,8 +41,10 @@ pub enum Reason {
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         t: f64,
     },
-    /// The body has not collapsed, but its stretches differ so much that `det phi` is the rounding of the entries of `phi`, in the
-    /// plane by a factor of some 1e15: what reads it, or the inverse of `phi`, is not known any more.
+    /// The body has not collapsed, but its stretches differ so much that what is made of `phi` is lost in rounding: `det phi`, in the
+    /// plane by a factor of some 1e15; a mass matrix that depends on the placement, by one of some 1e7; or velocities as steps
+    /// need them, which then become so short that those left do not lead to the end. So may end a body that is stretched without
+    /// bound in a finite time, and one whose collapse is hidden by rounding before it is at hand.
     Distortion {
         /// What comes out for `det phi`.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
@@ -219,9 +221,9 @@ impl fmt::Display for Reason {
             }
             Reason::Distortion { determinant, t } => write!(
                 f,
-                "det phi comes out as {determinant:e} at t = {t}, which is the rounding of the entries of phi: the body has not \
-                 collapsed, but its stretches differ so much that sixteen digits do not tell det phi and the inverse of phi any \
-                 more; end the run before, or add a potential that keeps the stretches together"
+                "det phi comes out as {determinant:e} at t = {t}: the body has not collapsed, but its stretches differ so much \
+                 that sixteen digits do not tell det phi, or what steps need of the inverse of phi, any more; end the run \
+                 before, or add a potential that keeps the stretches together"
             ),
             Reason::Domain { guard: Guard { part, argument, bound }, value, t } => write!(
                 f,
@@ -284,7 +286,8 @@ impl fmt::Display for Reason {
                 f,
                 "the largest number of steps, {limit}, is used up: raise it by `.max_steps(n)`, that of a flow by \
                  `.set_max_steps(n)`, loosen the tolerance, or take another method: an implicit one where the model is stiff, \
-                 Method::Rattle for masses under det phi = 1 that are stretched far"
+                 Method::Rattle where the model has it and the body is stretched far; one that is stretched without bound, or \
+                 of which det phi falls to zero, takes ever more of them: end such a run before"
             ),
             Reason::Event { event, t } => write!(
                 f,
