@@ -144,12 +144,12 @@ impl<const N: usize> Guard<N> {
         }
         let (t, steps) = (motion.t(), motion.statistics().steps);
         // Each look costs the evaluations of some steps.
-        if steps.is_power_of_two() {
+        if t > self.since && steps.is_power_of_two() {
+            is_followed(asked.0, || model.rate_of_friction(t, &motion.reached().0))?;
+        }
+        if asked.0.step().is_none() && Pace::is_looked_at(steps) {
             let (point, _) = motion.reached();
-            if t > self.since {
-                is_followed(asked.0, || model.rate_of_friction(t, &point))?;
-            }
-            if asked.0.step().is_none() && self.pace.is_lost(model, (t, &point, steps), ahead, asked.1) {
+            if self.pace.is_lost(model, (t, &point, steps), ahead, asked.1) {
                 return Err(self.collapsing(model, (t, &point)).unwrap_or_else(|| far_apart(point.phi(), t)));
             }
         }

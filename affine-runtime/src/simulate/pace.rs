@@ -40,6 +40,11 @@ struct Look {
 }
 
 impl Pace {
+    /// After so many steps the pace is looked at.
+    pub(super) fn is_looked_at(steps: u64) -> bool {
+        steps >= STEPS_UNTIL_A_LOOK && steps.is_power_of_two()
+    }
+
     /// Is the motion lost in rounding after so many steps by their error? From look to look steps have become shorter and stretches
     /// have grown apart, rounding changes the velocity by more than the tolerance, and as long as since the last look the steps that
     /// are left do not lead to the end: the run would use them all up.
@@ -50,9 +55,6 @@ impl Pace {
         (t_end, steps_left): (f64, u64),
         tolerance: f64,
     ) -> bool {
-        if steps < STEPS_UNTIL_A_LOOK || !steps.is_power_of_two() {
-            return false;
-        }
         let likeness = likeness(model, point);
         let last = self.last.filter(|last| last.steps < steps);
         let mean = last.map_or(f64::NAN, |last| (t - last.t).abs() / (steps - last.steps) as f64);
