@@ -149,14 +149,7 @@ pub fn finite<const K: usize, T: Real>(coefficients: [T; K]) -> Result<[T; K]> {
     let Some(value) = values.find(|c| !c.is_finite()) else { return Ok(coefficients) };
     Err(Error::IllPosed(IllPosed {
         condition: "every coefficient is finite",
-        reason: match value.is_nan() {
-            true => {
-                "a coefficient of the equations is no number: fields make a root or a logarithm of what is negative, or 0/0"
-            }
-            false => {
-                "a coefficient of the equations overflows, or is divided by zero; choose fields nearer to 1, in other units"
-            }
-        },
+        reason: "a coefficient of the equations overflows, is divided by zero, or is a root or logarithm of a negative number; choose other fields, nearer to 1 in other units",
         value,
         threshold: f64::MAX,
         velocity: None,

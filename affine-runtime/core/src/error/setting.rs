@@ -276,8 +276,7 @@ impl fmt::Display for Setting {
                  parameters, the start, method, tolerance, times, outputs and events of the run that was interrupted"
             ),
             Setting::Body { number, of } => write!(f, "body {number} of {of}: bodies are counted from 0"),
-            Setting::Shard { of: 0, .. } => f.write_str("no shards: there is at least one, shard 0 of 1"),
-            Setting::Shard { k, of } => write!(f, "shard {k} of {of}: shards are counted from 0"),
+            Setting::Shard { k, of } => write!(f, "shard {k} of {of}: of one or more, counted from 0"),
             Setting::Step { given, t0, t_end } => write!(
                 f,
                 "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \
