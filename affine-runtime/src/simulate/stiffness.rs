@@ -16,9 +16,8 @@ const STIFF: f64 = 475.0;
 /// Trying one costs a part of a run of so many.
 const WORTH_A_TRIAL: f64 = 10.0;
 
-/// Where steps by pieces are not emitted, they are named from this tolerance up. There and at 0.1 a trial met it in all of 1584
-/// runs of six models with a stiff dilatation, at 1e-3 in 759 of 792, and at 1e-5 in about half: what a dilatation does to the rest
-/// within a step is then too much, more or less from start to start.
+/// Where steps by pieces are not emitted, they are named from this tolerance up, at which a trial of them meets it. At tighter ones
+/// what a dilatation does to the rest within a step may be too much, more or less from start to start.
 const SURE: f64 = 1e-2;
 /// They are named where the rest of the motion makes at most so many radians within such a step: a shear as stiff as the
 /// dilatation makes hundreds, and the trial fails.
