@@ -173,4 +173,8 @@ fn coincidence_is_an_outcome() {
     assert!(matches!(stop.reason, StopReason::Coincidence { .. }), "{stop}");
     // q_1 - q_2 = 0.8 - 2 t/A
     assert!(stop.t < 0.8 * A / 2.0, "{stop}");
+    // So is one at the start.
+    lattice.q.fill(0.3);
+    let stop = CircleFlow::new(&Unitary2, 0.0, lattice).advance_to(10.0).unwrap_err();
+    assert_eq!((stop.t, stop.reason), (0.0, StopReason::Coincidence { distance: 0.0 }));
 }

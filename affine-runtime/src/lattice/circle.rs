@@ -54,6 +54,10 @@ impl<'a, const N: usize, M: LatticeForm<N>> CircleFlow<'a, N, M> {
             return Err(stop(self.t, &self.lattice, reason));
         }
         sound(self.tolerance).map_err(|reason| stop(self.t, &self.lattice, reason))?;
+        let (distance, _) = nearest(&self.lattice, &self.lattice);
+        if distance < NEAREST {
+            return Err(stop(self.t, &self.lattice, StopReason::Coincidence { distance }));
+        }
         let (couplings, state) = self.lattice.framed::<M>();
         let rates = |_: f64, state: &M::Framed<f64>| self.model.framed_equations(&couplings, state);
         let mut steps = RungeKutta8::new(rates, groups::<N, M>(), (self.t, state), t, self.tolerance)
