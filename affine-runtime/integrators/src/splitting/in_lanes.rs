@@ -148,7 +148,7 @@ impl<T: Lanes, S: StateVector<T>, P: PiecesInLanes<T, S>> WithSimd for Step<'_, 
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) -> T {
         let Self { pieces, sweeps, at: (t, h), from, to, .. } = self;
-        // As vectors: states of eight bodies are kilobytes, which a call copies in half as long as the step takes.
+        // As vectors: states of eight bodies are kilobytes, and a call that copies so many starts slowly.
         for (to, from) in [(&mut to.value, &from.value), (&mut to.carry, &from.carry)] {
             for (to, from) in to.as_mut().iter_mut().zip(from.as_ref()) {
                 for k in 0..parts::<V, T>() {
