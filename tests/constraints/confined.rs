@@ -438,3 +438,27 @@ confined! {
         (dalembert = [[1, 0.5, 0], [0.5, 2, 0.25], [0, 0.25, 3]], space_translation = 1.25)
         [Term::DAlembert(quarters(3, &[4, 2, 0, 2, 8, 1, 0, 1, 12])), space_translation()] none;
 }
+
+/// The velocity that is printed, `P((dH/dSigma_hat)^T)`, of the `H` that is printed, differentiated by hand as a function of nine
+/// entries.
+#[test]
+fn the_velocity_on_a_group_is_the_projected_slope_that_is_printed() {
+    #[affine_model(dim = 3, constraint = rigid, kinetic(body_inertia = diag(1, 2, 4)))]
+    struct Top;
+    let description = Top::DESCRIPTION;
+    let texts: Vec<&str> = description.equations.iter().map(|formula| formula.text).collect();
+    assert_eq!(
+        description.hamiltonian.text,
+        "H = 2/3*sigma_hat_12^2 + 2/5*sigma_hat_13^2 + 1/3*sigma_hat_23^2"
+    );
+    assert!(texts.contains(&"Omega_hat = P((dH/dSigma_hat)^T)"), "{texts:?}");
+    assert!(texts.contains(&"P X = (X - X^T)/2"), "{texts:?}");
+    let spin = Matrix::<3>::new(0.0, 0.7, -0.4, -0.7, 0.0, 1.1, 0.4, -1.1, 0.0);
+    let point = Top.at_momentum(Matrix::<3>::identity(), Comoving(spin)).unwrap();
+    let mut slope = Matrix::<3>::zeros();
+    for ((i, k), weight) in [((0, 1), 4.0 / 3.0), ((0, 2), 4.0 / 5.0), ((1, 2), 2.0 / 3.0)] {
+        slope[(i, k)] = weight * spin[(i, k)];
+    }
+    let projected = (slope.transpose() - slope) / 2.0;
+    assert!((Top.velocity(&point).phi_dot - projected).norm() < 1e-15);
+}

@@ -173,3 +173,32 @@ fn the_right_hand_side_does_not_grow() {
     let _ = Orthonormal { j: Matrix::<3>::identity() }.prepare().unwrap();
     let _ = Matrices { g: Matrix::<3>::identity(), j: Matrix::<3>::identity() }.prepare().unwrap();
 }
+
+/// A matrix field beside a metric that is a field stands in the user's bases, and what is printed in the orthonormal ones has a name
+/// of its own.
+#[test]
+fn fields_in_the_given_bases_are_printed_so() {
+    #[affine_model(dim = 2, metrics(body = h), kinetic(dalembert = j), potential = tr(G))]
+    struct Carried {
+        h: Matrix<2>,
+        j: Matrix<2>,
+    }
+    #[affine_model(dim = 2, kinetic(dalembert = j), potential = tr(G))]
+    struct Plain {
+        j: Matrix<2>,
+    }
+    let [carried, plain] = [PreparedCarried::DESCRIPTION, PreparedPlain::DESCRIPTION];
+    assert_eq!(carried.kinetic_energy.text, "T = 1/2 tr(phi_dot J phi_dot^T), J = j in the given bases");
+    assert_eq!(carried.hamiltonian.text, "H = 1/2 tr(Pi^T J^-1 Pi) + tr(G)");
+    assert_eq!(plain.kinetic_energy.text, "T = 1/2 tr(phi_dot j phi_dot^T)");
+    // eta = B^T B: J = B j B^T.
+    let (h, j) = (Matrix::<2>::new(4.0, 0.0, 0.0, 9.0), Matrix::<2>::new(1.0, 0.25, 0.25, 2.0));
+    let model = Carried { h, j }.prepare().unwrap();
+    let rate = Matrix::<2>::new(0.3, -0.2, 0.5, 0.1);
+    let point = model.at_velocity(Matrix::<2>::identity(), rate).unwrap();
+    let factor = Matrix::<2>::new(2.0, 0.0, 0.0, 3.0);
+    let [inertia, orthonormal] = [factor * j * factor.transpose(), rate * factor.try_inverse().unwrap()];
+    let kinetic = 0.5 * (orthonormal * inertia * orthonormal.transpose()).trace();
+    let green = (factor.try_inverse().unwrap().transpose() * factor.try_inverse().unwrap()).trace();
+    assert!((model.hamiltonian(0.0, &point) - kinetic - green).abs() < 1e-14);
+}

@@ -135,7 +135,7 @@ impl<T: Lanes> NormInLanes<T> {
 /// A group of the states before and after a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Measured<T> {
-    /// What is measured.
+    /// The size of an error over the length of the step, or of a rate, in this group.
     pub(crate) value: T,
     /// Norms of the group before and after.
     pub(crate) sizes: [T; 2],
