@@ -27,8 +27,14 @@ pub(super) fn products<const N: usize>(phi: &Matrix<N>) -> f64 {
 
 /// `|det phi|` over the sum of the absolute values of its products: what is left of its digits. 1 where that is not known.
 pub(super) fn distinctness<const N: usize>(phi: &Matrix<N>) -> f64 {
-    let unit = phi / norm(phi.as_slice());
-    let part = (determinant(&unit) / products(&unit)).abs();
+    let products_of = products(phi);
+    let part = if products_of.is_normal() {
+        determinant(phi) / products_of
+    } else {
+        let unit = phi / norm(phi.as_slice());
+        determinant(&unit) / products(&unit)
+    };
+    let part = part.abs();
     if part.is_nan() { 1.0 } else { part }
 }
 

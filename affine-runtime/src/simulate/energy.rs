@@ -29,6 +29,11 @@ impl Energy {
         Self { value, bound: 0.5 * (internal + translational), kinetic: 0.5 * kinetic }
     }
 
+    /// Of which nothing else is known, for what takes a size that is at least so large.
+    pub(super) fn of_value(value: f64) -> Self {
+        Self { value, bound: 0.0, kinetic: 0.0 }
+    }
+
     /// What an error of the energy is measured against: `|H|`, or the bound of `|T|`.
     pub(super) fn scale(&self) -> f64 {
         larger(self.value.abs(), self.bound)

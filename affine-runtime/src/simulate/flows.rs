@@ -9,10 +9,10 @@ use core::fmt;
 
 use super::failed::failed;
 use super::in_lanes::{EIGHT, has_fused_lanes};
-use super::mechanics::{Begin, Moving};
+use super::mechanics::Moving;
 use super::method::Method;
 use super::methods::{by_any_steps, by_splitting};
-use super::motion::{PointOf, Stepping};
+use super::motion::{Begin, PointOf, Stepping};
 use super::settings::{Plan, long_enough};
 use super::stepped::{Stepped, placed_at};
 use crate::capability::{InLanes, Splitting};

@@ -34,8 +34,6 @@ where
     pub(super) of_lanes: [Constants<N, H, f64>; EIGHT],
     /// The same in lanes.
     pub(super) constants: Constants<N, H, T>,
-    /// Those in lanes are others.
-    has_changed: bool,
 }
 
 impl<const N: usize, T: Lanes, H: Handle<N>> Together<N, T, H>
@@ -47,20 +45,13 @@ where
         const { assert!(T::LANES == EIGHT, "one body for each lane") }
         let (handles, of_lanes) = (array::from_fn(|lane| body(lane).0), array::from_fn(|lane| body(lane).1));
         let constants = H::Model::constants_in_lanes(&of_lanes);
-        Self { handles, of_lanes, constants, has_changed: false }
+        Self { handles, of_lanes, constants }
     }
 
-    /// Puts a body into a lane, to be [settled](Self::settle).
+    /// Puts a body into a lane.
     pub(super) fn put(&mut self, lane: usize, handle: H, constants: Constants<N, H, f64>) {
+        H::Model::set_constants_of_lane(&mut self.constants, lane, &constants);
         (self.handles[lane], self.of_lanes[lane]) = (handle, constants);
-        self.has_changed = true;
-    }
-
-    /// Takes bodies that were put into their lanes with the others.
-    pub(super) fn settle(&mut self) {
-        if core::mem::take(&mut self.has_changed) {
-            self.constants = H::Model::constants_in_lanes(&self.of_lanes);
-        }
     }
 
     /// The phase point of a state in a lane, with the work done.

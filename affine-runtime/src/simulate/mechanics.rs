@@ -3,7 +3,7 @@
 use super::course::{Choice, Course};
 use super::cubic::{Knot, on_cubic};
 use super::friction::rate_of_friction;
-use super::motion::{Boxed, Motion, PointOf, Purpose};
+use super::motion::{Begin, Follow, Purpose};
 use super::stiffness::would_pass_over;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -40,17 +40,14 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn collapse(&self, geodesic: &Geodesic<N>, t_end: f64, start: &Matrix<N>) -> Option<f64>;
     /// Energy and equations of motion at a point, number by number.
     fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
-    /// Begins to integrate, by the method that is chosen.
-    fn begin<'m>(
-        &'m self,
+    /// Begins to integrate, by the method that is chosen, and follows the motion.
+    fn follow(
+        &self,
         course: &Course<'_, P>,
         choice: &mut Choice,
-    ) -> Result<Box<dyn Motion<P> + 'm>, Reason>;
+        then: &mut Follow<'_, P>,
+    ) -> Result<(), Reason>;
 }
-
-/// Begins to integrate a model, by integrators that are compiled for it.
-pub(super) type Begin<'a, const N: usize, H> =
-    fn(&H, &Course<'_, PointOf<N, H>>, &mut Choice) -> Result<Boxed<'a, N, H>, Reason>;
 
 /// A model with what integrates it.
 #[derive(Clone)]
@@ -118,11 +115,12 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
         let rates = self.handle.model().reduced_equations(t, &constants, &reduced);
         rates.as_ref().iter().for_each(|rate| each(*rate));
     }
-    fn begin<'m>(
-        &'m self,
+    fn follow(
+        &self,
         course: &Course<'_, M::Point<f64>>,
         choice: &mut Choice,
-    ) -> Result<Box<dyn Motion<M::Point<f64>> + 'm>, Reason> {
-        (self.begin)(&self.handle, course, choice).map(|motion| H::followed(motion) as Box<dyn Motion<_>>)
+        then: &mut Follow<'_, M::Point<f64>>,
+    ) -> Result<(), Reason> {
+        self.handle.follow(self.begin, course, choice, then)
     }
 }

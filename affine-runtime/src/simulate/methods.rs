@@ -4,10 +4,10 @@ use super::by_equations::{by_gauss, chart, reduced};
 use super::by_radau::by_radau;
 use super::by_rattle::by_rattle;
 use super::choice::choose;
-use super::course::{Choice, Course};
+use super::course::Course;
 use super::layout::{Layout, carries_dilatation, has_work, moves_on_group};
 use super::method::Method;
-use super::motion::{At, Boxed, Purpose, begun, boxed, expansion};
+use super::motion::{At, Boxed, Goal, Purpose, begun, boxed, expansion};
 use super::range::in_range;
 use super::stiffness::{PiecesOf, adaptive};
 use crate::error::{Reason, Setting};
@@ -23,43 +23,43 @@ use affine_core::system::{Packing, SecondOrder, Series};
 pub(super) fn automatic<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
     model: &H,
     course: &Course<'_, M::Point<f64>>,
-    choice: &mut Choice,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
-    begin::<N, M, H, false>(model, course, choice)
+    begin::<N, M, H, false>(model, course, goal)
 }
 
 /// Begins to integrate `model` by the method that was asked for.
 pub(super) fn named<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
     model: &H,
     course: &Course<'_, M::Point<f64>>,
-    choice: &mut Choice,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
-    begin::<N, M, H, true>(model, course, choice)
+    begin::<N, M, H, true>(model, course, goal)
 }
 
 /// Begins to integrate `model` by splitting in equal steps, which is what was asked for.
 pub(super) fn by_splitting<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
     model: &H,
     course: &Course<'_, M::Point<f64>>,
-    choice: &mut Choice,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
     let Method::Splitting { order, step } = course.method else {
         return Err(not_emitted::<N, M>("splitting"));
     };
-    choice.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) };
-    if choice.needs_determinant {
+    goal.choice.needs_determinant = const { carries_dilatation(&M::DESCRIPTION) };
+    if goal.choice.needs_determinant {
         in_range(course.t0, model.model().orthonormal(course.start).phi())?;
     }
-    by_pieces((model, course), |model: H| M::splitting(model), (order, step), &mut choice.evaluations)
+    by_pieces((model, course), |model: H| M::splitting(model), (order, step), goal)
 }
 
 /// Begins to integrate `model` by Runge-Kutta steps of order 8, which is what was asked for.
 pub(super) fn by_any_steps<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>>(
     model: &H,
     course: &Course<'_, M::Point<f64>>,
-    choice: &mut Choice,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
-    by_any_equations::<N, M, H, false>((model, course), Method::RungeKutta8, &mut choice.evaluations)
+    by_any_equations::<N, M, H, false>((model, course), Method::RungeKutta8, goal)
 }
 
 /// Begins to integrate `model`. What depends on the model alone, and on whether the program names methods, is decided by
@@ -67,46 +67,46 @@ pub(super) fn by_any_steps<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, 
 fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, const NAMED: bool>(
     model: &H,
     course: &Course<'_, M::Point<f64>>,
-    choice: &mut Choice,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
     if const { M::IS_GEODESIC && !NAMED } {
         return Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into());
     }
-    choose::<N, M>(model.model(), course, choice);
-    let method = choice.method;
-    if choice.needs_determinant {
+    choose::<N, M>(model.model(), course, goal.choice);
+    let method = goal.choice.method;
+    if goal.choice.needs_determinant {
         in_range(course.t0, model.model().orthonormal(course.start).phi())?;
     }
-    let (at, spent) = ((model, course), &mut choice.evaluations);
+    let at = (model, course);
     match method {
         Method::RungeKuttaNystrom12 => {
-            by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_12, spent)
+            by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_12, goal)
         }
         Method::RungeKuttaNystrom8 => {
-            by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_8, spent)
+            by_halves(at, |model: H| M::second_order(model), &Tableau::ORDER_8, goal)
         }
-        Method::Taylor { order } => by_series(at, |model: H| M::taylor(model), order, spent),
+        Method::Taylor { order } => by_series(at, |model: H| M::taylor(model), order, goal),
         Method::AdaptiveSplitting { order } => {
-            by_adaptive_pieces::<N, M, _, _, NAMED>(at, |model: H| M::splitting(model), order, spent)
+            by_adaptive_pieces::<N, M, _, _, NAMED>(at, |model: H| M::splitting(model), order, goal)
         }
         Method::Splitting { order, step } if const { NAMED } => {
-            by_pieces(at, |model: H| M::splitting(model), (order, step), spent)
+            by_pieces(at, |model: H| M::splitting(model), (order, step), goal)
         }
         Method::Rattle { order, step } if const { NAMED } => {
-            by_rattle(at, |model: H| M::unconstrained(model), (order, step), spent)
+            by_rattle(at, |model: H| M::unconstrained(model), (order, step), goal)
         }
         Method::Radau { stages }
             if const { !moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
         {
-            by_radau(at, stages, spent)
+            by_radau(at, stages, goal)
         }
         Method::RungeKutta8 | Method::RungeKutta5 | Method::Gauss { .. } | Method::Radau { .. } => {
-            by_any_equations::<N, M, _, NAMED>(at, method, spent)
+            by_any_equations::<N, M, _, NAMED>(at, method, goal)
         }
         // Of a closed form there are no steps, and the choice has put a method in the place of the automatic one, which is none
         // of those that are equal steps.
         Method::ClosedForm | Method::Automatic | Method::Splitting { .. } | Method::Rattle { .. } => {
-            by_any_equations::<N, M, _, NAMED>(at, Method::RungeKutta8, spent)
+            by_any_equations::<N, M, _, NAMED>(at, Method::RungeKutta8, goal)
         }
     }
 }
@@ -115,12 +115,12 @@ fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, con
 fn by_any_equations<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, const NAMED: bool>(
     at: At<'_, N, M, H>,
     method: Method,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason> {
     if const { !moves_on_group(&M::DESCRIPTION, N) } {
-        free::<N, M, _, _, NAMED>(at, |model: H| M::packing(model), method, spent)
+        free::<N, M, _, _, NAMED>(at, |model: H| M::packing(model), method, goal)
     } else {
-        reduced::<N, M, _, _, NAMED>(at, chart::<N, M>(M::DESCRIPTION.reduced)?, method, spent)
+        reduced::<N, M, _, _, NAMED>(at, chart::<N, M>(M::DESCRIPTION.reduced)?, method, goal)
     }
 }
 
@@ -129,7 +129,7 @@ fn by_series<'a, const N: usize, M, R, H>(
     at: At<'_, N, M, H>,
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     order: Option<usize>,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
@@ -140,7 +140,7 @@ where
         return Err(not_emitted::<N, M>("taylor"));
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    boxed(at, layout, spent, move |model: &H, course| {
+    boxed(at, layout, goal, move |model: &H, course| {
         let series = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("taylor"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let Course { t0, t_end, tolerance, .. } = *course;
@@ -155,7 +155,7 @@ fn by_pieces<'a, const N: usize, M, R, H>(
     at: At<'_, N, M, H>,
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     (order, step): (usize, f64),
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
@@ -166,7 +166,7 @@ where
         return Err(not_emitted::<N, M>("splitting"));
     }
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    boxed(at, layout, spent, move |model: &H, course| {
+    boxed(at, layout, goal, move |model: &H, course| {
         let pieces = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("splitting"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let begin = (course.t0, reduced);
@@ -181,7 +181,7 @@ fn by_adaptive_pieces<'a, const N: usize, M, R, H, const NAMED: bool>(
     at: At<'_, N, M, H>,
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     order: Option<usize>,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
@@ -192,7 +192,7 @@ where
         return Err(not_emitted::<N, M>("splitting"));
     }
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    boxed(at, layout, spent, move |model: &H, course| {
+    boxed(at, layout, goal, move |model: &H, course| {
         let pieces = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("splitting"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let integration = adaptive(model.model(), pieces, order, (reduced, constants), course);
@@ -207,7 +207,7 @@ fn by_halves<'a, const N: usize, M, R, H>(
     at: At<'_, N, M, H>,
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     tableau: &'static Tableau,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
@@ -218,7 +218,7 @@ where
         return Err(not_emitted::<N, M>("nystrom"));
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    boxed(at, layout, spent, move |model: &H, course| {
+    boxed(at, layout, goal, move |model: &H, course| {
         let system = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("nystrom"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let Course { t0, t_end, tolerance, .. } = *course;
@@ -239,7 +239,7 @@ fn free<'a, const N: usize, M, R, H, const NAMED: bool>(
     at: At<'_, N, M, H>,
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     method: Method,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
@@ -247,7 +247,7 @@ where
     H: Purpose<'a, N, Model = M>,
 {
     if const { !is_emitted::<R>() } {
-        return reduced::<N, M, _, _, NAMED>(at, Flat, method, spent);
+        return reduced::<N, M, _, _, NAMED>(at, Flat, method, goal);
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
     let field = move |model: &H, course: &Course<'_, M::Point<f64>>| {
@@ -257,13 +257,13 @@ where
         Ok::<_, Reason>((InVectors(packing, constants), (course.t0, reduced), expand))
     };
     match method {
-        Method::Gauss { stages, step } if const { NAMED } => by_gauss(at, Flat, (stages, step), spent),
-        Method::RungeKutta5 if const { NAMED } => boxed(at, layout, spent, move |model, course| {
+        Method::Gauss { stages, step } if const { NAMED } => by_gauss(at, Flat, (stages, step), goal),
+        Method::RungeKutta5 if const { NAMED } => boxed(at, layout, goal, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta5::in_vectors(field, groups, begin, course.t_end, course.tolerance);
             begun::<N, M, _, _>(course, steps, expand)
         }),
-        _ => boxed(at, layout, spent, move |model, course| {
+        _ => boxed(at, layout, goal, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta8::in_vectors(field, groups, begin, course.t_end, course.tolerance);
             begun::<N, M, _, _>(course, steps, expand)

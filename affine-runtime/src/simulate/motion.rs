@@ -1,7 +1,7 @@
 //! A motion of phase points, step by step, whatever is integrated and how.
 
 use super::checkpoint::Bits;
-use super::course::Course;
+use super::course::{Choice, Course};
 use super::layout::Layout;
 use super::stepper::Stepper;
 use crate::error::Reason;
@@ -54,13 +54,36 @@ pub(super) trait Engine<const N: usize, H: Handle<N>>: Motion<PointOf<N, H>> {
 
 /// A model with what its motion is begun for: what is not asked of the motion is not compiled.
 pub(super) trait Purpose<'a, const N: usize>: Handle<N> + 'a {
-    /// A motion by an integrator that only its beginning knows.
+    /// What is done with a motion that has begun.
+    type Then<'t>
+    where
+        'a: 't;
+    /// What becomes of it.
     type Boxed;
-    /// Puts a motion where it stays.
-    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed;
-    /// As far as it is followed.
-    fn followed(motion: Self::Boxed) -> Box<dyn Motion<PointOf<N, Self>> + 'a>;
+    /// Hands over a motion by an integrator that only its beginning knows.
+    fn boxed(motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<Self::Boxed, Reason>;
+    /// Begins a course and follows it.
+    fn follow(
+        &self,
+        begin: Begin<'a, N, Self>,
+        course: &Course<'_, PointOf<N, Self>>,
+        choice: &mut Choice,
+        then: &mut Follow<'_, PointOf<N, Self>>,
+    ) -> Result<(), Reason>;
 }
+
+/// What a motion is begun for, and what is known of its choice.
+pub(super) struct Goal<'g, 'a: 'g, const N: usize, H: Purpose<'a, N>> {
+    pub(super) choice: &'g mut Choice,
+    pub(super) then: H::Then<'g>,
+}
+
+/// Follows a motion that was chosen.
+pub(super) type Follow<'f, P> = dyn FnMut(&mut dyn Motion<P>, &Choice) -> Result<(), Reason> + 'f;
+
+/// Begins to integrate a model, by integrators that are compiled for it.
+pub(super) type Begin<'a, const N: usize, H> =
+    fn(&H, &Course<'_, PointOf<N, H>>, Goal<'_, 'a, N, H>) -> Result<Boxed<'a, N, H>, Reason>;
 
 /// A model whose motion is followed to one end.
 pub(super) struct Followed<'a, M>(pub(super) &'a M);
@@ -79,13 +102,24 @@ impl<const N: usize, M: Model<N>> Handle<N> for Followed<'_, M> {
     }
 }
 
+/// Where it is: short runs would take a tenth longer with one that is put elsewhere.
 impl<'a, const N: usize, M: Model<N>> Purpose<'a, N> for Followed<'a, M> {
-    type Boxed = Box<dyn Motion<M::Point<f64>> + 'a>;
-    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed {
-        Box::new(motion)
+    type Then<'t>
+        = &'t mut Follow<'t, M::Point<f64>>
+    where
+        'a: 't;
+    type Boxed = ();
+    fn boxed(mut motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<(), Reason> {
+        (goal.then)(&mut motion, goal.choice)
     }
-    fn followed(motion: Self::Boxed) -> Self::Boxed {
-        motion
+    fn follow(
+        &self,
+        begin: Begin<'a, N, Self>,
+        course: &Course<'_, M::Point<f64>>,
+        choice: &mut Choice,
+        then: &mut Follow<'_, M::Point<f64>>,
+    ) -> Result<(), Reason> {
+        begin(self, course, Goal { choice, then: &mut |motion, choice| then(motion, choice) })
     }
 }
 
@@ -102,12 +136,23 @@ impl<const N: usize, H: Handle<N>> Handle<N> for Stepping<H> {
 }
 
 impl<'a, const N: usize, H: Handle<N> + 'a> Purpose<'a, N> for Stepping<H> {
+    type Then<'t>
+        = ()
+    where
+        'a: 't;
     type Boxed = Box<dyn Engine<N, Self> + 'a>;
-    fn boxed(motion: impl Engine<N, Self> + 'a) -> Self::Boxed {
-        Box::new(motion)
+    fn boxed(motion: impl Engine<N, Self> + 'a, _: Goal<'_, 'a, N, Self>) -> Result<Self::Boxed, Reason> {
+        Ok(Box::new(motion))
     }
-    fn followed(motion: Self::Boxed) -> Box<dyn Motion<PointOf<N, Self>> + 'a> {
-        motion
+    fn follow(
+        &self,
+        begin: Begin<'a, N, Self>,
+        course: &Course<'_, PointOf<N, Self>>,
+        choice: &mut Choice,
+        then: &mut Follow<'_, PointOf<N, Self>>,
+    ) -> Result<(), Reason> {
+        let mut motion = begin(self, course, Goal { choice, then: () })?;
+        then(&mut *motion, choice)
     }
 }
 
@@ -157,11 +202,11 @@ struct Running<I, E, B, S> {
     kept: Option<(f64, S)>,
 }
 
-/// Begins a course, and puts it where it stays; what was spent besides is added to the evaluations.
+/// Begins a course, and hands it over; what was spent besides is added to the evaluations.
 pub(super) fn boxed<'a, const N: usize, H, S, I, E, B>(
     (model, course): (&H, &Course<'_, PointOf<N, H>>),
     layout: Layout,
-    spent: &mut u64,
+    goal: Goal<'_, 'a, N, H>,
     begin: B,
 ) -> Result<Boxed<'a, N, H>, Reason>
 where
@@ -172,8 +217,8 @@ where
     B: Fn(&H, &Course<'_, PointOf<N, H>>) -> Result<Begun<I, E>, Reason> + 'a,
 {
     let Begun { integration, expand, evaluations } = begin(model, course)?;
-    *spent += evaluations;
-    Ok(H::boxed(Running { integration, expand, begin, layout, kept: None }))
+    goal.choice.evaluations += evaluations;
+    H::boxed(Running { integration, expand, begin, layout, kept: None }, goal)
 }
 
 impl<const N: usize, H, S, I, E, B> Engine<N, H> for Running<I, E, B, S>

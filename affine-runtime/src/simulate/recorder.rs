@@ -330,12 +330,6 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
     }
 
     /// Begins to hold the energy against what it is at the start of an integration.
-    pub(super) fn begin_energy(&mut self, t0: f64, start: &P, tolerance: Option<f64>) -> Result<(), Reason> {
-        let energy = Energy::at(self.model, t0, start);
-        self.begin_at_energy((t0, start), &energy, tolerance)
-    }
-
-    /// The same where the energy is known.
     pub(super) fn begin_at_energy(
         &mut self,
         (t0, start): (f64, &P),
@@ -351,14 +345,21 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         Ok(())
     }
 
-    /// Looks at the energy at the end, where that is no output.
-    pub(super) fn arrive(&mut self) -> Result<(), Reason> {
-        let (t, point) = self.trajectory.end;
-        if self.trajectory.times.last() == Some(&t) {
-            return Ok(());
+    /// Looks at the energy at the end, where that is no output; its value.
+    pub(super) fn arrive(&mut self) -> Result<Option<f64>, Reason> {
+        let Trajectory { end: (t, point), times, energies, computation, .. } = &*self.trajectory;
+        if times.last() == Some(t) {
+            return Ok(None);
         }
-        let work = self.trajectory.energies.work_at_end - self.place.work();
-        self.witnessed(t, &(point, work)).map(|_| ())
+        // Of most ends the value says all.
+        let (energy, has_equal_steps) =
+            (self.model.hamiltonian(*t, point), computation.method.step().is_some());
+        let is_kept = |witness: Witness| witness.keeps(energy, energies.work_at_end);
+        if !has_equal_steps && self.witness.is_some_and(is_kept) {
+            return Ok(Some(energy));
+        }
+        let reached = (*point, energies.work_at_end - self.place.work());
+        self.witnessed(*t, &reached).map(|energy| Some(energy.value))
     }
 
     /// The energy of a point, held against that of the start.

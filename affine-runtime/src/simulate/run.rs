@@ -74,13 +74,15 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let model = self.model;
         let outcome = self.drive(&mut trajectory, at_start);
         // The end is the last output, as a rule; an event may have changed it since.
-        trajectory.energies.end = match (trajectory.times.last(), trajectory.energies.outputs.last()) {
-            (Some(t), Some(energy)) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
+        let last = trajectory.times.last().zip(trajectory.energies.outputs.last());
+        trajectory.energies.end = match (&outcome, last) {
+            (Ok(Some(energy)), _) => *energy,
+            (_, Some((t, energy))) if *t == trajectory.end.0 && trajectory.events.is_empty() => *energy,
             _ => model.hamiltonian(trajectory.end.0, &trajectory.end.1),
         };
         trajectory.computation.distinctness = distinctness(trajectory.end.1.phi());
         match outcome {
-            Ok(()) => Ok(trajectory),
+            Ok(_) => Ok(trajectory),
             Err(reason) => {
                 let stop = Stop { reason, t: trajectory.end.0, steps: trajectory.statistics.steps };
                 Err(Halt { stop, trajectory: Box::new(trajectory) })
@@ -98,7 +100,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         Trajectory { dense, ..empty_trajectory(self.model, plan, start, at_start) }
     }
 
-    fn drive(&mut self, trajectory: &mut Trajectory<N, P>, at_start: Energy) -> Result<(), Reason> {
+    /// To the end, or to an event that ends the run; the energy there, where it was looked at.
+    fn drive(&mut self, trajectory: &mut Trajectory<N, P>, at_start: Energy) -> Result<Option<f64>, Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
         let Plan { t0, max_steps, .. } = self.settings.plan;
@@ -165,13 +168,13 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
     }
 
     /// One integration after the other: where an event changes the point, the next one starts, and `from` is where. The energy
-    /// of the first may be known.
+    /// of the first may be known; that of the end, where it was looked at.
     fn legs(
         &self,
         from: &mut (f64, P),
         mut known: Option<Energy>,
         recorder: &mut Recorder<'_, '_, N, P>,
-    ) -> Result<(), Reason> {
+    ) -> Result<Option<f64>, Reason> {
         let mut changes = 0;
         loop {
             let energy = known.take().unwrap_or_else(|| Energy::at(self.model, from.0, &from.1));
@@ -182,7 +185,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
                     recorder.trajectory.computation.stiff_since = Some(t);
                     (t, point, work, None)
                 }
-                Some(Turn::Stopped) => return Ok(()),
+                Some(Turn::Stopped) => return Ok(None),
                 None => return recorder.arrive(),
             };
             *from = (t, point);
@@ -234,11 +237,16 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             }
             _ => {
                 recorder.begin(t0, start)?;
-                let mut choice = Choice::default();
-                let motion = self.model.begin(&course, &mut choice);
-                recorder.note(&choice);
-                let outcome = recorder.follow(&mut *motion?);
-                recorder.look_back(&course);
+                let (mut choice, mut has_begun) = (Choice::default(), false);
+                let outcome = self.model.follow(&course, &mut choice, &mut |motion, choice| {
+                    has_begun = true;
+                    recorder.note(choice);
+                    recorder.follow(motion)
+                });
+                match has_begun {
+                    true => recorder.look_back(&course),
+                    false => recorder.note(&choice),
+                }
                 outcome
             }
         }

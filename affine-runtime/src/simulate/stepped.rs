@@ -7,7 +7,7 @@ use super::failed::failed;
 use super::guard::{Guard, explained};
 use super::mechanics::{Mechanics, Moving};
 use super::method::Method;
-use super::motion::{Boxed, Motion, PointOf, Stepping};
+use super::motion::{Boxed, Goal, Motion, PointOf, Stepping};
 use super::point::{check, is_clearly_positive};
 use super::range::in_range;
 use super::settings::{Plan, long_enough};
@@ -279,7 +279,8 @@ fn begun<'a, const N: usize, H: Handle<N> + 'a>(
         _ => {
             let mut choice = Choice::default();
             let course = course(moving, plan, (t, &point), t);
-            let engine = (moving.begin)(&moving.handle, &course, &mut choice)?;
+            let goal = Goal { choice: &mut choice, then: () };
+            let engine = (moving.begin)(&moving.handle, &course, goal)?;
             cost.evaluations += choice.evaluations;
             Ok((Way::Steps(engine), choice.needs_determinant))
         }

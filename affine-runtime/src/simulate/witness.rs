@@ -53,6 +53,17 @@ impl Witness {
         self.worst
     }
 
+    /// Is an energy, with the work so far, as near to that of the start as it has to be, however small what it is made of may be?
+    pub(super) fn keeps(&self, energy: f64, work: f64) -> bool {
+        let is_near = |before: f64| (energy - work - before).abs() <= self.named() * self.scale;
+        energy.is_finite() && self.before.is_none_or(is_near)
+    }
+
+    /// The part of the scale up to which nothing is said.
+    fn named(&self) -> f64 {
+        self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance))
+    }
+
     /// Looks at the energy of a point, with the work so far.
     ///
     /// # Errors
@@ -71,8 +82,7 @@ impl Witness {
         let Some(before) = self.before else { return Ok(()) };
         self.scale = larger(self.scale, at_point.size());
         let defect = (energy - work - before).abs();
-        let named = self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance));
-        if defect <= named * self.scale {
+        if defect <= self.named() * self.scale {
             return Ok(());
         }
         let is_worth = |reach: f64| defect <= worth(model, (t, point), energy, reach);

@@ -16,9 +16,9 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let rt = &context.names.rt;
     let (t, constants) = (&context.names.scalar, &context.names.constants);
     let stored = trajectory::kept(context, &[]);
-    let (argument, lane) = match stored.is_empty() {
-        true => (quote!(_constants), quote!(_lane)),
-        false => (quote!(constants), quote!(lane)),
+    let (argument, lane, own) = match stored.is_empty() {
+        true => (quote!(_constants), quote!(_lane), quote!(_own)),
+        false => (quote!(constants), quote!(lane), quote!(own)),
     };
     // Where there are no constants, there is nothing to say.
     let of = |entry: &dyn Fn(TokenStream) -> TokenStream| {
@@ -27,11 +27,20 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     };
     let gathered = of(&|entry| quote!(#rt::gathered(constants, |lane| lane.#entry)));
     let of_lane = of(&|entry| quote!(#rt::in_lane(&constants.#entry, lane)));
+    let set = stored.iter().map(|field| field.set(context));
     let items = quote! {
         fn constants_in_lanes<#t: #rt::Lanes>(
             #argument: &[Self::Constants<#rt::f64>],
         ) -> Self::Constants<#t> {
             #gathered
+        }
+
+        fn set_constants_of_lane<#t: #rt::Lanes>(
+            #argument: &mut Self::Constants<#t>,
+            #lane: #rt::usize,
+            #own: &Self::Constants<#rt::f64>,
+        ) {
+            #(#set)*
         }
 
         #[inline(always)]
@@ -66,5 +75,19 @@ impl Kept {
             Extent::Dilatation => quote!(#rt::Breathing::none()),
         };
         quote!(#name: #value)
+    }
+
+    /// The field of one trajectory put into its lane.
+    fn set(&self, context: &Context) -> TokenStream {
+        let (rt, name) = (&context.names.rt, &self.name);
+        match self.extent {
+            Extent::Number => quote!(#rt::Lanes::set_lane(&mut constants.#name, lane, own.#name);),
+            Extent::Vector | Extent::Matrix | Extent::List(_) => quote! {
+                for (lanes, own) in constants.#name.iter_mut().zip(own.#name.iter()) {
+                    #rt::Lanes::set_lane(lanes, lane, *own);
+                }
+            },
+            Extent::Dilatation => TokenStream::new(),
+        }
     }
 }

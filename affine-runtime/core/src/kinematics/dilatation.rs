@@ -89,16 +89,17 @@ pub struct LogDeterminant<const N: usize, T> {
 impl<const N: usize, T: Real> LogDeterminant<N, T> {
     /// The determinant of a matrix.
     pub fn of(matrix: &Matrix<N, T>) -> Self {
-        if !matrix.iter().all(|entry| entry.is_finite()) {
-            let nan = T::from_f64(f64::NAN);
-            return Self { sign: nan, mantissa: nan, exponent: 0 };
-        }
+        // Neither is said of entries that are not finite.
         let excess = matrix - Matrix::<N, T>::identity();
         if excess.iter().all(|entry| entry.abs() <= T::from_f64(NEARLY_UNDEFORMED)) {
             return Self { sign: T::one(), mantissa: log_determinant_near_identity(excess), exponent: 0 };
         }
         if let Some(determinant) = well_conditioned_determinant(matrix) {
             return Self::from_product(determinant, 0);
+        }
+        if !matrix.iter().all(|entry| entry.is_finite()) {
+            let nan = T::from_f64(f64::NAN);
+            return Self { sign: nan, mantissa: nan, exponent: 0 };
         }
         let (scaled, exponent) = equilibrate(matrix);
         Self::from_product(determinant_by_elimination(scaled), exponent)

@@ -12,46 +12,26 @@ use crate::simulate::in_lanes::{Bodies, EIGHT, Together};
 use crate::simulate::settings::Plan;
 use crate::simulate::watcher::Ends;
 
-/// A body before its first step.
-pub(super) struct Begun<'a, const N: usize, M: InLanes<N>> {
+/// A body before its first step, lent by those that wait: what is known of it is long.
+pub(super) struct Begun<'w, 'a, const N: usize, M: InLanes<N>> {
     pub(super) body: usize,
     model: &'a M,
     point: &'a M::Point<f64>,
-    state: M::Reduced<f64>,
-    constants: M::Constants<f64>,
-    start: Start<M::Reduced<f64>>,
-}
-
-/// As many bodies as there are lanes, or fewer, at their start; those are left out for which there is nothing to begin with.
-fn begun<'a, const N: usize, T: Lanes, M: InLanes<N>>(
-    (plan, t_end): (&Plan, f64),
-    points: &[(usize, &'a M, &'a M::Point<f64>)],
-) -> Vec<Begun<'a, N, M>> {
-    let t0 = plan.t0;
-    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
-    let (states, constants): (Vec<_>, Vec<_>) =
-        points.iter().map(|(_, model, point)| model.reduce(t0, point)).unzip();
-    let body = |lane: usize| (points[lane.min(last)].1, constants[lane.min(last)]);
-    let together = Together::<N, T, &M>::of(body);
-    let mut in_lanes = M::Reduced::<T>::zeros();
-    for (k, component) in in_lanes.as_mut().iter_mut().enumerate() {
-        *component = gathered(&states, |state: &M::Reduced<f64>| state.as_ref()[k]);
-    }
-    let starts = starts_in_lanes(&together, (t0, &in_lanes), t_end, plan.tolerance);
-    let bodies = points.iter().zip(states).zip(constants).zip(starts);
-    bodies
-        .filter_map(|(((&(body, model, point), state), constants), start)| {
-            Some(Begun { body, model, point, state, constants, start: start? })
-        })
-        .collect()
+    state: &'w M::Reduced<f64>,
+    constants: &'w M::Constants<f64>,
+    start: &'w Start<M::Reduced<f64>>,
 }
 
 /// Bodies that wait for a lane, begun eight at once.
 pub(super) struct Waiting<'a, 'p, const N: usize, T, M: InLanes<N>> {
     course: (&'p Plan, f64),
     others: Chunks<'p, (usize, &'a M, &'a M::Point<f64>)>,
-    begun: Vec<Begun<'a, N, M>>,
-    /// Of those that have begun, so many have a lane.
+    /// Those that have begun, with their states, constants and starts; of one that cannot begin in lanes there is none.
+    begun: &'p [(usize, &'a M, &'a M::Point<f64>)],
+    states: Vec<M::Reduced<f64>>,
+    constants: Vec<M::Constants<f64>>,
+    starts: Vec<Option<Start<M::Reduced<f64>>>>,
+    /// So many of them have a lane, or none at all.
     taken: usize,
     lanes: PhantomData<T>,
 }
@@ -59,16 +39,61 @@ pub(super) struct Waiting<'a, 'p, const N: usize, T, M: InLanes<N>> {
 impl<'a, 'p, const N: usize, T: Lanes, M: InLanes<N>> Waiting<'a, 'p, N, T, M> {
     /// Bodies from their points, each with its place among the starts and its model.
     pub(super) fn new(course: (&'p Plan, f64), points: &'p [(usize, &'a M, &'a M::Point<f64>)]) -> Self {
-        Self { course, others: points.chunks(EIGHT), begun: Vec::new(), taken: 0, lanes: PhantomData }
+        Self {
+            course,
+            others: points.chunks(EIGHT),
+            begun: &[],
+            states: Vec::new(),
+            constants: Vec::new(),
+            starts: Vec::new(),
+            taken: 0,
+            lanes: PhantomData,
+        }
     }
 
-    /// The next body; lent, since bodies are long.
-    pub(super) fn next(&mut self) -> Option<&Begun<'a, N, M>> {
-        while self.taken == self.begun.len() {
-            (self.begun, self.taken) = (begun::<N, T, M>(self.course, self.others.next()?), 0);
+    /// The next body.
+    pub(super) fn next(&mut self) -> Option<Begun<'_, 'a, N, M>> {
+        let place = loop {
+            match self.starts.get(self.taken) {
+                Some(start) => {
+                    self.taken += 1;
+                    if start.is_some() {
+                        break self.taken - 1;
+                    }
+                }
+                None => {
+                    let next = self.others.next()?;
+                    self.begin(next);
+                }
+            }
+        };
+        let (body, model, point) = self.begun[place];
+        let (state, constants) = (&self.states[place], &self.constants[place]);
+        self.starts[place].as_ref().map(|start| Begun { body, model, point, state, constants, start })
+    }
+
+    /// As many bodies as there are lanes, or fewer, at their start.
+    fn begin(&mut self, points: &'p [(usize, &'a M, &'a M::Point<f64>)]) {
+        let (plan, t_end) = self.course;
+        let t0 = plan.t0;
+        (self.begun, self.taken) = (points, 0);
+        self.states.clear();
+        self.constants.clear();
+        for (_, model, point) in points {
+            let (state, constants) = model.reduce(t0, point);
+            self.states.push(state);
+            self.constants.push(constants);
         }
-        self.taken += 1;
-        self.begun.get(self.taken - 1)
+        let last = points.len() - 1;
+        let body = |lane: usize| (points[lane.min(last)].1, self.constants[lane.min(last)]);
+        let together = Together::<N, T, &M>::of(body);
+        let mut in_lanes = M::Reduced::<T>::zeros();
+        for (k, component) in in_lanes.as_mut().iter_mut().enumerate() {
+            *component = gathered(&self.states, |state: &M::Reduced<f64>| state.as_ref()[k]);
+        }
+        self.starts.clear();
+        let starts = starts_in_lanes(&together, (t0, &in_lanes), t_end, plan.tolerance);
+        self.starts.extend(starts.take(points.len()));
     }
 }
 
@@ -89,17 +114,17 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Watched<'a, N, T, M> {
         waiting: &mut Waiting<'a, '_, N, T, M>,
     ) -> Option<(Self, [Option<usize>; EIGHT])> {
         let first = waiting.next()?;
-        let together = Together::of(|_| (first.model, first.constants));
+        let together = Together::of(|_| (first.model, *first.constants));
         let bodies = Bodies::new(together, (plan, t_end), within_steps);
         let ends = has_events.then(|| EndsInLanes::new(EIGHT, (first.model, first.point)));
         let mut watched = Self { bodies, t0: plan.t0, ends };
-        (0..EIGHT).for_each(|lane| watched.put(lane, first));
+        (0..EIGHT).for_each(|lane| watched.put(lane, &first));
         let mut numbers = [None; EIGHT];
         numbers[0] = Some(first.body);
         for (lane, number) in numbers.iter_mut().enumerate().skip(1) {
             match waiting.next() {
                 Some(next) => {
-                    watched.put(lane, next);
+                    watched.put(lane, &next);
                     *number = Some(next.body);
                 }
                 None => watched.bodies.rest(lane),
@@ -109,9 +134,9 @@ impl<'a, const N: usize, T: Lanes, M: InLanes<N>> Watched<'a, N, T, M> {
     }
 
     /// Puts a body into a lane.
-    pub(super) fn put(&mut self, lane: usize, begun: &Begun<'a, N, M>) {
-        self.bodies.set_model(lane, begun.model, begun.constants);
-        self.bodies.start(lane, (self.t0, &begun.state), &begun.start);
+    pub(super) fn put(&mut self, lane: usize, begun: &Begun<'_, 'a, N, M>) {
+        self.bodies.set_model(lane, begun.model, *begun.constants);
+        self.bodies.start(lane, (self.t0, begun.state), begun.start);
         if let Some(ends) = &mut self.ends {
             ends.begin(lane, begun.model, (self.t0, begun.point));
         }

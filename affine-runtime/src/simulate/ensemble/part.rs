@@ -102,7 +102,7 @@ where
                 }
                 match waiting.next() {
                     Some(next) => {
-                        watched.put(lane, next);
+                        watched.put(lane, &next);
                         recording.begin(self, (next.body, &starts[next.body]), &models[next.body]);
                     }
                     None => {

@@ -4,6 +4,7 @@ use super::asked::{Asked, Start};
 use crate::integrate::Statistics;
 use crate::model::{Handle, Model};
 use crate::simulate::checkpoint::Place;
+use crate::simulate::energy::Energy;
 use crate::simulate::mechanics::Mechanics;
 use crate::simulate::motion::WithWork;
 use crate::simulate::point::check;
@@ -91,7 +92,9 @@ impl<'r, 'a, const N: usize, P: Phase<N>, A> Recording<'r, 'a, N, P, A> {
         recorder.place = Place::starting(Vec::new(), (Statistics::default(), 0.0));
         (recorder.steps, recorder.witness, recorder.is_lost, recorder.turn) = (0, None, false, None);
         let due = recorder.schedule.take_through(t0, recorder.backward);
-        let begun = recorder.begin_energy(t0, &start.point, Some(asked.plan.tolerance));
+        // The least that what it is made of may be: a body whose energy seems lost goes alone, where more is known.
+        let energy = Energy::of_value(model.hamiltonian(t0, &start.point));
+        let begun = recorder.begin_at_energy((t0, &start.point), &energy, Some(asked.plan.tolerance));
         self.is_refused = begun.and_then(|()| recorder.begin(t0, &start.point)).is_err();
         let mut folded = (asked.begin)(start.number, &start.handle);
         due.iter().for_each(|t| (asked.add)(&mut folded, *t, &start.point));

@@ -165,7 +165,6 @@ where
         if !self.has_body.contains(&true) {
             self.integration.pass_over();
         }
-        self.integration.pieces_mut().0.settle();
         while !self.integration.is_finished() {
             let doubts = self.integration.advance();
             // Of most steps there is nothing to ask.

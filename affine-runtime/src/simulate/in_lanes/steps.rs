@@ -65,7 +65,6 @@ where
             let own = in_lanes.as_mut().iter_mut().zip(state.as_ref());
             own.for_each(|(lanes, number)| lanes.set_lane(lane, *number));
         }
-        self.integration.equations_mut().settle();
         let equations = self.integration.equations();
         let mut starts = starts_in_lanes(equations, (t0, &in_lanes), t_end, self.tolerance);
         array::from_fn(|_| starts.next().flatten())
@@ -126,7 +125,6 @@ where
 
     /// Tries one step of every body; the lanes in which the way of one ends.
     pub(in crate::simulate) fn advance(&mut self) -> impl Iterator<Item = (usize, Fate)> + use<N, T, H> {
-        self.integration.equations_mut().settle();
         self.integration.advance()
     }
 
