@@ -23,7 +23,7 @@ pub use crate::force;
 pub use crate::frames::{Body, Canonical, Comoving, Matrix, Momentum, Space, Spatial, TwoPoint, Vector};
 pub use crate::geodesic::{Geodesic, Orbit};
 pub use crate::kinematics::dilatation::far_from_undeformed;
-pub use crate::lanes::{Lanes, gathered, in_lane};
+pub use crate::lanes::{Lanes, gathered, in_lane, set_entries};
 pub use crate::matrix_field::symmetric_part;
 pub use crate::metrics::forms::{rebased_inertia, rebased_tensor, told_in_given_bases};
 pub use crate::metrics::quantities::{form_in_given_bases, inverse_in_given_bases};

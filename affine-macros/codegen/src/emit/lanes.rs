@@ -82,11 +82,9 @@ impl Kept {
         let (rt, name) = (&context.names.rt, &self.name);
         match self.extent {
             Extent::Number => quote!(#rt::Lanes::set_lane(&mut constants.#name, lane, own.#name);),
-            Extent::Vector | Extent::Matrix | Extent::List(_) => quote! {
-                for (lanes, own) in constants.#name.iter_mut().zip(own.#name.iter()) {
-                    #rt::Lanes::set_lane(lanes, lane, *own);
-                }
-            },
+            Extent::Vector | Extent::Matrix | Extent::List(_) => {
+                quote!(#rt::set_entries(&mut constants.#name, lane, &own.#name);)
+            }
             Extent::Dilatation => TokenStream::new(),
         }
     }
