@@ -119,11 +119,7 @@ pub trait InLanes<const N: usize>: Model<N> {
     fn constants_in_lanes<T: Lanes>(constants: &[Self::Constants<f64>]) -> Self::Constants<T>;
 
     /// Puts the constants of one trajectory into a lane, beside those of the others.
-    fn set_constants_of_lane<T: Lanes>(
-        constants: &mut Self::Constants<T>,
-        lane: usize,
-        own: &Self::Constants<f64>,
-    );
+    fn put_constants<T: Lanes>(constants: &mut Self::Constants<T>, lane: usize, own: &Self::Constants<f64>);
 
     /// The constants of the trajectory in a lane.
     fn constants_of_lane<T: Lanes>(constants: &Self::Constants<T>, lane: usize) -> Self::Constants<T::Lane>;

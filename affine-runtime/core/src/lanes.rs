@@ -33,19 +33,13 @@ pub trait Lanes: Scalar {
 }
 
 /// An entry of several records, one to a lane; the last record fills what is left of them.
-#[inline]
 pub fn gathered<T: Lanes, C>(records: &[C], entry: impl Fn(&C) -> f64) -> T {
     T::from_lanes(|lane| records.get(lane).or(records.last()).map_or(f64::NAN, &entry))
 }
 
 /// Puts the entries of a record into a lane.
-#[inline]
-pub fn set_entries<'r, T: Lanes + 'r>(
-    lanes: impl IntoIterator<Item = &'r mut T>,
-    lane: usize,
-    record: impl IntoIterator<Item = &'r f64>,
-) {
-    lanes.into_iter().zip(record).for_each(|(lanes, entry)| lanes.set_lane(lane, *entry));
+pub fn set_entries<T: Lanes>(lanes: &mut [T], lane: usize, record: &[f64]) {
+    lanes.iter_mut().zip(record).for_each(|(lanes, entry)| lanes.set_lane(lane, *entry));
 }
 
 /// What stands in a lane.

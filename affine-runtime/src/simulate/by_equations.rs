@@ -4,7 +4,7 @@ use super::by_radau::tableau;
 use super::course::Course;
 use super::layout::{Layout, has_work, moves_on_group, placement_in};
 use super::method::Method;
-use super::motion::{At, Boxed, Goal, Purpose, begun, boxed, expansion};
+use super::motion::{At, Goal, Launched, Purpose, begun, expansion, launched};
 use crate::error::{Reason, Setting};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::lie::{Chart, Coordinates};
@@ -18,7 +18,7 @@ pub(super) fn reduced<'a, const N: usize, M, C, H, const NAMED: bool>(
     coordinates: C,
     method: Method,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     C: Coordinates<M::Reduced<f64>> + 'a,
@@ -38,7 +38,7 @@ where
         Method::Radau { stages }
             if const { moves_on_group(&M::DESCRIPTION, N) && (NAMED || has_work(&M::DESCRIPTION)) } =>
         {
-            boxed(at, layout, goal, move |model, course| {
+            launched(at, layout, goal, move |model, course| {
                 let (state, constants) = model.model().reduce(course.t0, course.start);
                 let Course { t0, t_end, tolerance, .. } = *course;
                 let tableau = tableau(stages, tolerance)?;
@@ -48,13 +48,13 @@ where
                 begun::<N, M, _, _>(course, radau, expansion(model, constants))
             })
         }
-        Method::RungeKutta5 if const { NAMED } => boxed(at, layout, goal, move |model, course| {
+        Method::RungeKutta5 if const { NAMED } => launched(at, layout, goal, move |model, course| {
             let (begin, equations, expand) = begun_at(model, course);
             let Course { t_end, tolerance, .. } = *course;
             let steps = RungeKutta5::within(coordinates, equations, groups, begin, t_end, tolerance);
             begun::<N, M, _, _>(course, steps, expand)
         }),
-        _ => boxed(at, layout, goal, move |model, course| {
+        _ => launched(at, layout, goal, move |model, course| {
             let (begin, equations, expand) = begun_at(model, course);
             let Course { t_end, tolerance, .. } = *course;
             let steps = RungeKutta8::within(coordinates, equations, groups, begin, t_end, tolerance);
@@ -69,7 +69,7 @@ pub(super) fn by_gauss<'a, const N: usize, M, C, H>(
     coordinates: C,
     (stages, step): (usize, f64),
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     C: Coordinates<M::Reduced<f64>> + 'a,
@@ -77,7 +77,7 @@ where
 {
     let tableau = Tableau::of_stages(stages).ok_or(Setting::Stages { given: stages })?;
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    boxed(at, layout, goal, move |model, course| {
+    launched(at, layout, goal, move |model, course| {
         let (state, constants) = model.model().reduce(course.t0, course.start);
         let equations = closed(model, constants);
         let gauss = Gauss::within(coordinates, equations, tableau, (course.t0, state), course.t_end, step);

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::layout::Layout;
-use super::motion::{At, Begun, Boxed, Goal, Purpose, begun, boxed};
+use super::motion::{At, Begun, Goal, Launched, Purpose, begun, launched};
 use super::velocities::Variables;
 use crate::error::{Reason, Setting};
 use crate::integrate::Radau;
@@ -14,13 +14,13 @@ pub(super) fn by_radau<'a, const N: usize, M, H>(
     at: At<'_, N, M, H>,
     stages: Option<usize>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     H: Purpose<'a, N, Model = M>,
 {
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let Course { t0, t_end, tolerance, .. } = *course;
         let tableau = tableau(stages, tolerance)?;
         let (state, variables, evaluations) = Variables::at(model, (t0, course.start));

@@ -1,7 +1,7 @@
 //! RATTLE: the body without its constraint, and the multiplier step by step.
 
 use super::layout::Layout;
-use super::motion::{At, Begun, Boxed, Goal, Purpose, begun, boxed};
+use super::motion::{At, Begun, Goal, Launched, Purpose, begun, launched};
 use crate::decompose::LinearMap;
 use crate::error::{Reason, Setting};
 use crate::frames::Matrix;
@@ -20,7 +20,7 @@ pub(super) fn by_rattle<'a, const N: usize, M, R, H>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     (order, step): (usize, f64),
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: Unconstrained + 'a,
@@ -32,7 +32,7 @@ where
     }
     let composition = Composition::of_order(order).ok_or(Setting::Order { given: order })?;
     let layout = const { Layout::of(R::GROUPS, N) };
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let free = capability(model.clone()).ok_or_else(refused)?;
         let start = *course.start;
         let begin = (course.t0, canonical::<N, R>(&free, course.t0, &start));

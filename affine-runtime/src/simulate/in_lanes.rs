@@ -50,7 +50,7 @@ where
 
     /// Puts a body into a lane.
     pub(super) fn put(&mut self, lane: usize, handle: H, constants: Constants<N, H, f64>) {
-        H::Model::set_constants_of_lane(&mut self.constants, lane, &constants);
+        H::Model::put_constants(&mut self.constants, lane, &constants);
         (self.handles[lane], self.of_lanes[lane]) = (handle, constants);
     }
 

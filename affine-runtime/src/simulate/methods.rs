@@ -7,7 +7,7 @@ use super::choice::choose;
 use super::course::Course;
 use super::layout::{Layout, carries_dilatation, has_work, moves_on_group};
 use super::method::Method;
-use super::motion::{At, Boxed, Goal, Purpose, begun, boxed, expansion};
+use super::motion::{At, Goal, Launched, Purpose, begun, expansion, launched};
 use super::range::in_range;
 use super::stiffness::{PiecesOf, adaptive};
 use crate::error::{Reason, Setting};
@@ -24,7 +24,7 @@ pub(super) fn automatic<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, 
     model: &H,
     course: &Course<'_, M::Point<f64>>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     begin::<N, M, H, false>(model, course, goal)
 }
 
@@ -33,7 +33,7 @@ pub(super) fn named<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Mode
     model: &H,
     course: &Course<'_, M::Point<f64>>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     begin::<N, M, H, true>(model, course, goal)
 }
 
@@ -42,7 +42,7 @@ pub(super) fn by_splitting<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, 
     model: &H,
     course: &Course<'_, M::Point<f64>>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     let Method::Splitting { order, step } = course.method else {
         return Err(not_emitted::<N, M>("splitting"));
     };
@@ -58,7 +58,7 @@ pub(super) fn by_any_steps<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, 
     model: &H,
     course: &Course<'_, M::Point<f64>>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     by_any_equations::<N, M, H, false>((model, course), Method::RungeKutta8, goal)
 }
 
@@ -68,7 +68,7 @@ fn begin<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Model = M>, con
     model: &H,
     course: &Course<'_, M::Point<f64>>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     if const { M::IS_GEODESIC && !NAMED } {
         return Err(Setting::NoClosedForm { model: M::DESCRIPTION.name }.into());
     }
@@ -116,7 +116,7 @@ fn by_any_equations<'a, const N: usize, M: Model<N> + 'a, H: Purpose<'a, N, Mode
     at: At<'_, N, M, H>,
     method: Method,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason> {
+) -> Result<Launched<'a, N, H>, Reason> {
     if const { !moves_on_group(&M::DESCRIPTION, N) } {
         free::<N, M, _, _, NAMED>(at, |model: H| M::packing(model), method, goal)
     } else {
@@ -130,7 +130,7 @@ fn by_series<'a, const N: usize, M, R, H>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     order: Option<usize>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: Series<M::Reduced<f64>, M::Constants<f64>> + 'a,
@@ -140,7 +140,7 @@ where
         return Err(not_emitted::<N, M>("taylor"));
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let series = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("taylor"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let Course { t0, t_end, tolerance, .. } = *course;
@@ -156,7 +156,7 @@ fn by_pieces<'a, const N: usize, M, R, H>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     (order, step): (usize, f64),
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: PiecesOf<N, M> + 'a,
@@ -166,7 +166,7 @@ where
         return Err(not_emitted::<N, M>("splitting"));
     }
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let pieces = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("splitting"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let begin = (course.t0, reduced);
@@ -182,7 +182,7 @@ fn by_adaptive_pieces<'a, const N: usize, M, R, H, const NAMED: bool>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     order: Option<usize>,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: PiecesOf<N, M> + 'a,
@@ -192,7 +192,7 @@ where
         return Err(not_emitted::<N, M>("splitting"));
     }
     let layout = const { Layout::of(M::DESCRIPTION.reduced, N) };
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let pieces = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("splitting"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let integration = adaptive(model.model(), pieces, order, (reduced, constants), course);
@@ -208,7 +208,7 @@ fn by_halves<'a, const N: usize, M, R, H>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     tableau: &'static Tableau,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: SecondOrder<M::Reduced<f64>, M::Constants<f64>> + 'a,
@@ -218,7 +218,7 @@ where
         return Err(not_emitted::<N, M>("nystrom"));
     }
     let (groups, layout) = (M::DESCRIPTION.reduced, const { Layout::of(M::DESCRIPTION.reduced, N) });
-    boxed(at, layout, goal, move |model: &H, course| {
+    launched(at, layout, goal, move |model: &H, course| {
         let system = capability(model.clone()).ok_or_else(|| not_emitted::<N, M>("nystrom"))?;
         let (reduced, constants) = model.model().reduce(course.t0, course.start);
         let Course { t0, t_end, tolerance, .. } = *course;
@@ -240,7 +240,7 @@ fn free<'a, const N: usize, M, R, H, const NAMED: bool>(
     capability: impl Fn(H) -> Option<R> + Copy + 'a,
     method: Method,
     goal: Goal<'_, 'a, N, H>,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     M: Model<N> + 'a,
     R: Packing<M::Reduced<f64>, M::Constants<f64>> + 'a,
@@ -258,12 +258,12 @@ where
     };
     match method {
         Method::Gauss { stages, step } if const { NAMED } => by_gauss(at, Flat, (stages, step), goal),
-        Method::RungeKutta5 if const { NAMED } => boxed(at, layout, goal, move |model, course| {
+        Method::RungeKutta5 if const { NAMED } => launched(at, layout, goal, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta5::in_vectors(field, groups, begin, course.t_end, course.tolerance);
             begun::<N, M, _, _>(course, steps, expand)
         }),
-        _ => boxed(at, layout, goal, move |model, course| {
+        _ => launched(at, layout, goal, move |model, course| {
             let (field, begin, expand) = field(model, course)?;
             let steps = RungeKutta8::in_vectors(field, groups, begin, course.t_end, course.tolerance);
             begun::<N, M, _, _>(course, steps, expand)

@@ -59,9 +59,12 @@ pub(super) trait Purpose<'a, const N: usize>: Handle<N> + 'a {
     where
         'a: 't;
     /// What becomes of it.
-    type Boxed;
+    type Launched;
     /// Hands over a motion by an integrator that only its beginning knows.
-    fn boxed(motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<Self::Boxed, Reason>;
+    fn launched(
+        motion: impl Engine<N, Self> + 'a,
+        goal: Goal<'_, 'a, N, Self>,
+    ) -> Result<Self::Launched, Reason>;
     /// Begins a course and follows it.
     fn follow(
         &self,
@@ -83,7 +86,7 @@ pub(super) type Follow<'f, P> = dyn FnMut(&mut dyn Motion<P>, &Choice) -> Result
 
 /// Begins to integrate a model, by integrators that are compiled for it.
 pub(super) type Begin<'a, const N: usize, H> =
-    fn(&H, &Course<'_, PointOf<N, H>>, Goal<'_, 'a, N, H>) -> Result<Boxed<'a, N, H>, Reason>;
+    fn(&H, &Course<'_, PointOf<N, H>>, Goal<'_, 'a, N, H>) -> Result<Launched<'a, N, H>, Reason>;
 
 /// A model whose motion is followed to one end.
 pub(super) struct Followed<'a, M>(pub(super) &'a M);
@@ -108,8 +111,8 @@ impl<'a, const N: usize, M: Model<N>> Purpose<'a, N> for Followed<'a, M> {
         = &'t mut Follow<'t, M::Point<f64>>
     where
         'a: 't;
-    type Boxed = ();
-    fn boxed(mut motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<(), Reason> {
+    type Launched = ();
+    fn launched(mut motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<(), Reason> {
         (goal.then)(&mut motion, goal.choice)
     }
     fn follow(
@@ -140,8 +143,11 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Purpose<'a, N> for Stepping<H> {
         = ()
     where
         'a: 't;
-    type Boxed = Box<dyn Engine<N, Self> + 'a>;
-    fn boxed(motion: impl Engine<N, Self> + 'a, _: Goal<'_, 'a, N, Self>) -> Result<Self::Boxed, Reason> {
+    type Launched = Box<dyn Engine<N, Self> + 'a>;
+    fn launched(
+        motion: impl Engine<N, Self> + 'a,
+        _: Goal<'_, 'a, N, Self>,
+    ) -> Result<Self::Launched, Reason> {
         Ok(Box::new(motion))
     }
     fn follow(
@@ -160,7 +166,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Purpose<'a, N> for Stepping<H> {
 pub(super) type PointOf<const N: usize, H> = <<H as Handle<N>>::Model as Model<N>>::Point<f64>;
 
 /// A motion of a model.
-pub(super) type Boxed<'a, const N: usize, H> = <H as Purpose<'a, N>>::Boxed;
+pub(super) type Launched<'a, const N: usize, H> = <H as Purpose<'a, N>>::Launched;
 
 /// An integration that has begun.
 pub(super) struct Begun<I, E> {
@@ -203,12 +209,12 @@ struct Running<I, E, B, S> {
 }
 
 /// Begins a course, and hands it over; what was spent besides is added to the evaluations.
-pub(super) fn boxed<'a, const N: usize, H, S, I, E, B>(
+pub(super) fn launched<'a, const N: usize, H, S, I, E, B>(
     (model, course): (&H, &Course<'_, PointOf<N, H>>),
     layout: Layout,
     goal: Goal<'_, 'a, N, H>,
     begin: B,
-) -> Result<Boxed<'a, N, H>, Reason>
+) -> Result<Launched<'a, N, H>, Reason>
 where
     H: Purpose<'a, N>,
     S: StateVector<f64> + 'a,
@@ -218,7 +224,7 @@ where
 {
     let Begun { integration, expand, evaluations } = begin(model, course)?;
     goal.choice.evaluations += evaluations;
-    H::boxed(Running { integration, expand, begin, layout, kept: None }, goal)
+    H::launched(Running { integration, expand, begin, layout, kept: None }, goal)
 }
 
 impl<const N: usize, H, S, I, E, B> Engine<N, H> for Running<I, E, B, S>

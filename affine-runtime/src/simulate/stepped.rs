@@ -7,7 +7,7 @@ use super::failed::failed;
 use super::guard::{Guard, explained};
 use super::mechanics::{Mechanics, Moving};
 use super::method::Method;
-use super::motion::{Boxed, Goal, Motion, PointOf, Stepping};
+use super::motion::{Goal, Launched, Motion, PointOf, Stepping};
 use super::point::{check, is_clearly_positive};
 use super::range::in_range;
 use super::settings::{Plan, long_enough};
@@ -36,7 +36,7 @@ pub(super) struct Stepped<'a, const N: usize, H: Handle<N> + 'a> {
 
 /// How it moves.
 enum Way<'a, const N: usize, H: Handle<N> + 'a> {
-    Steps(Boxed<'a, N, Stepping<H>>),
+    Steps(Launched<'a, N, Stepping<H>>),
     /// A closed form with the time reached.
     ClosedForm(ClosedForm<N, PointOf<N, H>>, f64),
 }

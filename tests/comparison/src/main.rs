@@ -13,6 +13,8 @@
 //! `cargo run --release -p affine-comparison rhs`: times of single evaluations instead, beside the generated C.
 //!
 //! `cargo run --release -p affine-comparison peak`: which share of the arithmetic of one core is reached.
+//!
+//! `cargo run --release -p affine-comparison one-step P1 1000`: so many runs of one step, for callgrind.
 
 mod by_hand;
 mod compiled;
@@ -23,6 +25,7 @@ mod equal_steps;
 mod evaluations;
 #[path = "../../../examples/work_precision/frontier.rs"]
 mod frontier;
+mod one_step;
 mod peak;
 mod peers;
 #[path = "../../../examples/work_precision/problems.rs"]
@@ -65,6 +68,15 @@ fn compare(mut only: Vec<String>) -> affine_runtime::Result<Result<(), String>> 
     if only.first().is_some_and(|first| first == "peak") {
         peak::print_head();
         return problems::visit(&mut peak::Shares).map(Ok);
+    }
+    if let [first, of, count] = &*only
+        && first == "one-step"
+    {
+        let Ok(count) = count.parse() else { return Ok(Err(format!("no number of runs: {count}"))) };
+        let mut runs = one_step::Runs { of: of.clone(), count, steps: 0 };
+        problems::visit(&mut runs)?;
+        println!("{count} runs of {of}, {} steps", runs.steps);
+        return Ok(Ok(()));
     }
     let compiled = match Compiled::start() {
         Ok(compiled) => compiled,

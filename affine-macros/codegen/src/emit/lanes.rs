@@ -35,7 +35,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
             #gathered
         }
 
-        fn set_constants_of_lane<#t: #rt::Lanes>(
+        fn put_constants<#t: #rt::Lanes>(
             #argument: &mut Self::Constants<#t>,
             #lane: #rt::usize,
             #own: &Self::Constants<#rt::f64>,
@@ -83,7 +83,7 @@ impl Kept {
         match self.extent {
             Extent::Number => quote!(#rt::Lanes::set_lane(&mut constants.#name, lane, own.#name);),
             Extent::Vector | Extent::Matrix | Extent::List(_) => {
-                quote!(#rt::set_entries(&mut constants.#name, lane, &own.#name);)
+                quote!(#rt::set_entries(constants.#name.as_mut_slice(), lane, own.#name.as_slice());)
             }
             Extent::Dilatation => TokenStream::new(),
         }

@@ -213,12 +213,8 @@ fn equilibrate<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> (Matrix<N, T>,
 fn determinant_by_elimination<const N: usize, T: Real>(mut matrix: Matrix<N, T>) -> T {
     let mut product = T::one();
     for k in 0..N {
-        let mut pivot = k;
-        for row in k + 1..N {
-            if matrix[(row, k)].abs() > matrix[(pivot, k)].abs() {
-                pivot = row;
-            }
-        }
+        let larger = |pivot, row| if matrix[(row, k)].abs() > matrix[(pivot, k)].abs() { row } else { pivot };
+        let pivot = (k + 1..N).fold(k, larger);
         if matrix[(pivot, k)] == T::zero() {
             return T::zero();
         }
