@@ -217,6 +217,9 @@ fn a_folder_of_another_run_is_refused() {
     assert_eq!(refused(elastic()), other);
     fs::write(&place, [0xff, 0xfe, 0x00]).unwrap();
     assert_eq!(refused(elastic()), other, "no text");
+    fs::write(&place, "notes without an end of a line").unwrap();
+    assert_eq!(refused(elastic()), other, "not of a run");
+    assert_eq!(fs::read_to_string(&place).unwrap(), "notes without an end of a line");
     fs::write(&place, manifest).unwrap();
     // Settings are looked at before.
     let nowhere = elastic().tolerance(0.0).save("no folder", (Format::Csv, CHUNK), |_| ()).unwrap_err();

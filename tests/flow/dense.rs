@@ -262,12 +262,13 @@ fn times_that_are_refused() {
     assert_eq!(stop.reason, Reason::Setting(Setting::NotDense { t: 0.25 }));
     assert!(stop.to_string().contains(".dense()") && stop.to_string().contains(".output("), "{stop}");
     let dense = simulation().dense().run().unwrap();
-    for t in [-1e-9, 0.5_f64.next_up(), f64::INFINITY] {
+    for (t, says) in [(-1e-9, ".until("), (0.5_f64.next_up(), ".until("), (f64::INFINITY, "inf is no time")] {
         let stop = dense.at(t).unwrap_err();
         assert_eq!(stop.reason, Reason::Setting(Setting::OutsideRun { t, from: 0.0, to: 0.5 }));
-        assert!(stop.to_string().contains(".until("), "{stop}");
+        assert!(stop.to_string().contains(says), "{stop}");
     }
-    assert!(dense.at(f64::NAN).is_err());
+    let stop = dense.at(f64::NAN).unwrap_err();
+    assert!(stop.to_string().contains("NaN is no time"), "{stop}");
     // Before the start of a run that goes backward, its end is no way to get there.
     let back = Simulation::new(&cube, thrown(&cube)).from(0.5).until(-0.5).dense().run().unwrap();
     let stop = back.at(0.6).unwrap_err().to_string();

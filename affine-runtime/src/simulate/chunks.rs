@@ -35,9 +35,9 @@ impl Folder {
         let bytes = opened.map_err(|error| failed(&place, &error))?;
         // What is no text was not written here.
         let text = String::from_utf8(bytes).map_err(|_| Setting::Checkpoint { model })?;
-        // A line that has no end was under way.
+        // A line that has no end was under way, but for the first, which a manifest is made with.
         let mut lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n'));
-        if lines.next().is_some_and(|first| first != run) {
+        if !text.is_empty() && lines.next() != Some(run) {
             return Err(Setting::Checkpoint { model }.into());
         }
         let mut there: Vec<String> = lines.map(str::to_owned).collect();

@@ -310,6 +310,9 @@ impl fmt::Display for Setting {
                 f,
                 "the motion about {t} is too fast or has a kink, and is not kept to the tolerance: ask for an output, `.output([{t}])`"
             ),
+            Setting::OutsideRun { t, from, to } if !t.is_finite() => {
+                write!(f, "{t} is no time of the run from {from} to {to}")
+            }
             Setting::OutsideRun { t, from, to } => write!(
                 f,
                 "time {t} lies outside the run from {from} to {to}, {}: let it begin or end there, `.from({t})` or `.until({t})`",
