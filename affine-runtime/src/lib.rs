@@ -148,7 +148,7 @@ mod inner {
     #[cfg(feature = "analysis")]
     pub(crate) use affine_core::__private::projected;
     #[cfg(feature = "std")]
-    pub(crate) use affine_core::__private::{Unconstrained, gathered};
+    pub(crate) use affine_core::__private::{Unconstrained, gathered, on_the_group};
     #[cfg(feature = "std")]
     pub(crate) use affine_core::system::Sum;
     pub(crate) use affine_integrators::__private::accumulate;

@@ -133,8 +133,9 @@ fn invariant<const N: usize, P: Potential<N>>(
     };
     let x = if P::POSITION { place.x } else { place.x + Vector::<N>::from_element(1.0) };
     let energies = [potential.energy(place), potential.energy(&Place { x, phi })];
-    let [here, there] = energies;
-    let size = here.abs().max(there.abs()).max(1.0);
+    let ([here, there], slopes) = (energies, potential.slopes(place));
+    // Of an energy that is a small difference of large ones, the slopes tell how large.
+    let size = here.abs().max(there.abs()).max(slopes.phi.norm() * place.phi.norm());
     // NaN is no agreement.
     let agree = (here - there).abs() <= ENERGY * size;
     if !agree {

@@ -77,23 +77,31 @@ impl<const N: usize, P: Phase<N>> Gaussian<N, P> {
 impl<const N: usize, P: Phase<N>> Distribution<P> for Gaussian<N, P> {
     fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P {
         let numbers = numbers(&self.point);
-        loop {
+        let mut draw = || {
             let mut place = 0;
-            let drawn = self.point.with_entries(&mut || {
+            self.point.with_entries(&mut || {
                 let group = group::<N>(place);
                 let number = numbers[place] + self.deviations[group] * rng.sample::<f64, _>(StandardNormal);
                 place += 1;
                 number
-            });
-            // Half of all matrices are placements, and of numbers that are none there never is one: a run that starts there says so.
+            })
+        };
+        let mut drawn = draw();
+        // Half of all matrices are placements. Around one that is none there may be none for ever: a run that starts there says so.
+        for _ in 0..MOST_DRAWS {
             let phi = drawn.phi();
             let is_open = self.deviations[0] != 0.0 && phi.iter().all(|entry| entry.is_finite());
             if !is_open || LogDeterminant::of(phi).is_positive() {
-                return drawn;
+                break;
             }
+            drawn = draw();
         }
+        drawn
     }
 }
+
+/// A placement is drawn so often at the most.
+const MOST_DRAWS: usize = 1024;
 
 /// Numbers of all momenta, the internal and the linear one.
 const MOMENTA: usize = 12;

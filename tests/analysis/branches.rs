@@ -355,6 +355,15 @@ fn steps_and_starts_that_lead_nowhere_are_refused() {
         let refused = lyapunov_spectrum(&rest, &start, time, 1e-9);
         assert!(matches!(refused, Err(AnalysisError::Time(_))), "{time}");
     }
+    #[affine_model(dim = 2, kinetic(body_inertia = 1), potential = ln(q))]
+    struct Barred;
+    // There are no equations at q = 0, and no exponents.
+    for phi in [Matrix::<2>::identity(), Matrix::<2>::identity() * 1e200] {
+        let start =
+            Barred.unflatten(&core::array::from_fn(|k| if k < 4 { phi[(k / 2, k % 2)] } else { 0.1 }));
+        let refused = lyapunov_spectrum(&Barred, &start, 1.0, 1e-9);
+        assert!(matches!(refused, Err(AnalysisError::Integration(_))), "{phi} {refused:?}");
+    }
 }
 
 /// A branch that ends within the range keeps its points, and says what the family says there.

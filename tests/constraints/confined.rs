@@ -462,3 +462,33 @@ fn the_velocity_on_a_group_is_the_projected_slope_that_is_printed() {
     let projected = (slope.transpose() - slope) / 2.0;
     assert!((Top.velocity(&point).phi_dot - projected).norm() < 1e-15);
 }
+
+/// A point that no constructor gives, read from numbers: nothing moves from it, unless it is off by what long motions leave.
+#[test]
+fn starts_off_the_constraint_are_refused() {
+    #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), emit(splitting))]
+    struct Top;
+    #[affine_model(dim = 2, constraint = isochoric, metric(space = diag(2, 1), body = diag(1, 3)), kinetic(dalembert = 1))]
+    struct Drop;
+    fn refused<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>, far: f64) {
+        let scaled = |by: f64| {
+            let mut numbers = model.flatten(&start);
+            numbers.as_mut()[..N * N].iter_mut().for_each(|entry| *entry *= by);
+            model.unflatten(&numbers)
+        };
+        for by in [1.0, 1.0 + 1e-11] {
+            assert!(Simulation::new(model, scaled(by)).until(0.1).run().is_ok(), "{by}");
+        }
+        let halt = Simulation::new(model, scaled(far)).until(0.1).run().unwrap_err();
+        assert!(matches!(halt.stop.reason, Reason::Setting(Setting::OffConstraint { .. })), "{halt}");
+        assert!(halt.to_string().contains("off its constraint") && halt.trajectory.is_empty(), "{halt}");
+        let stop = Flow::new(model, scaled(far)).unwrap_err();
+        assert!(matches!(stop.reason, Reason::Setting(Setting::OffConstraint { .. })), "{stop}");
+        let mut flow = Flow::new(model, start).unwrap();
+        assert!(flow.set_point(scaled(far)).is_err() && flow.advance(0.1).is_ok());
+    }
+    let rest = Matrix::<3>::new(0.0, 0.3, -0.2, -0.3, 0.0, 0.1, 0.2, -0.1, 0.0);
+    refused(&Top, Top.at_velocity(Matrix::identity(), rest).unwrap(), 1.1);
+    let phi = Matrix::<2>::from_diagonal_element(1.5_f64.sqrt().sqrt());
+    refused(&Drop, Drop.at_velocity(phi, Matrix::<2>::zeros()).unwrap(), 1.1);
+}

@@ -53,6 +53,11 @@ fn gaussian_starts_have_the_deviations_that_were_asked_for() {
     let wide = Gaussian::around(&Unprotected, point).placement(2.0);
     assert!(wide.sample_iter(random()).take(500).all(|point| point.phi().determinant() > 0.0));
     assert_eq!(Gaussian::around(&Unprotected, point).sample(&mut random()), point);
+    // Nothing near a mirrored point is a placement, and what is drawn is one that a run refuses.
+    let mut mirrored = Unprotected.flatten(&point);
+    (2..4).for_each(|k| mirrored[k] = -mirrored[k]);
+    let near = Gaussian::around(&Unprotected, Unprotected.unflatten(&mirrored)).placement(1e-3);
+    assert!(near.sample(&mut random()).phi().determinant() < 0.0);
 }
 
 /// Energies are those of the level, and each direction has its part of them: `T = |p|^2/2 + |Pi|^2/2`, six directions in all.

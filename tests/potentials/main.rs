@@ -36,6 +36,55 @@ fn constants_are_part_of_the_energy() {
     assert_eq!(energy!(3 - 3), 0.0);
 }
 
+/// Functions of numbers beside fields in functions: energies and motions in closed form.
+#[test]
+fn numbers_in_functions_of_fields() {
+    use affine_runtime::prelude::*;
+    #[affine_model(dim = 2, kinetic(body_inertia = 1), potential = tanh(b*sqrt(2))*tr(G))]
+    struct Alone {
+        b: f64,
+    }
+    #[affine_model(dim = 2, kinetic(dalembert = m), potential = sin(sqrt(2)*c)*tr(G))]
+    struct Beside {
+        m: f64,
+        c: f64,
+    }
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = m),
+        potential = exp(c*ln(2))*tr(G) + ln(b*sqrt(2))*tr(G)^2 + exp(b/ln(2))*det + abs(b*c*sqrt(3))*det^2 + cos((3 + a*cos(1))/3)*phi[1,1]
+            + sqrt(b*exp(c*sqrt(2)))
+    )]
+    struct Several {
+        m: f64,
+        a: f64,
+        b: f64,
+        c: f64,
+    }
+    let (m, a, b, c) = (1.5_f64, 0.3_f64, 1.7_f64, 0.646_f64);
+    let energy = |found: f64, expected: f64| {
+        assert!((found - expected).abs() < 4e-15 * expected.abs(), "{found} {expected}")
+    };
+    let alone = Alone { b }.prepare().unwrap();
+    let rest = alone.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();
+    energy(alone.hamiltonian(0.0, &rest), 2.0 * (b * 2.0_f64.sqrt()).tanh());
+    let beside = Beside { m, c }.prepare().unwrap();
+    let rest = beside.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();
+    let stiffness = (2.0_f64.sqrt() * c).sin();
+    energy(beside.hamiltonian(0.0, &rest), 2.0 * stiffness);
+    let (_, end) = Simulation::new(&beside, rest).until(1.0).tolerance(1e-12).run().unwrap().end().to_owned();
+    assert!((end.phi()[(0, 0)] - (2.0 * stiffness / m).sqrt().cos()).abs() < 1e-10);
+    let several = Several { m, a, b, c }.prepare().unwrap();
+    let rest = several.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();
+    let expected = 2.0 * (c * 2.0_f64.ln()).exp()
+        + 4.0 * (b * 2.0_f64.sqrt()).ln()
+        + (b / 2.0_f64.ln()).exp()
+        + b * c * 3.0_f64.sqrt()
+        + ((3.0 + a * 1.0_f64.cos()) / 3.0).cos()
+        + (b * (c * 2.0_f64.sqrt()).exp()).sqrt();
+    energy(several.hamiltonian(0.0, &rest), expected);
+}
+
 #[test]
 fn forces_within_the_rounding_of_the_placement() {
     let energies = energies::all();

@@ -111,14 +111,15 @@ pub fn carlson_rf<T: Real>(x: T, y: T, z: T) -> T {
 }
 
 /// `x -> (x + lambda)/4` with `lambda = sqrt(xy) + sqrt(yz) + sqrt(zx)`, until the arguments are so close to their mean `a` that
-/// series of order seven are exact to rounding: `a`, `1 - x/a` and `1 - y/a`. `each` is told `sqrt(z)` and `z + lambda`.
+/// series of order seven are exact to rounding: `a`, `1 - x/a` and `1 - y/a`. `each` is told `sqrt(z)` and `z + lambda`. No numbers
+/// where two of them are zero: they stay so.
 pub fn duplicated<T: Real>(mut x: [T; 3], mean: impl Fn([T; 3]) -> T, mut each: impl FnMut(T, T)) -> [T; 3] {
     let limit = (T::EPSILON * T::from_f64(0.25)).sqrt().sqrt().sqrt();
     let mut a = mean(x);
     for _ in 0..LEVELS {
         // Written so that NaN ends it as well.
         if !x.iter().any(|value| (a - *value).abs() > limit * a) {
-            break;
+            return [a, (a - x[0]) / a, (a - x[1]) / a];
         }
         let root = x.map(T::sqrt);
         let lambda = root[0] * root[1] + root[1] * root[2] + root[2] * root[0];
@@ -126,7 +127,7 @@ pub fn duplicated<T: Real>(mut x: [T; 3], mean: impl Fn([T; 3]) -> T, mut each: 
         x = x.map(|value| (value + lambda) * T::from_f64(0.25));
         a = mean(x);
     }
-    [a, (a - x[0]) / a, (a - x[1]) / a]
+    [T::from_f64(f64::NAN); 3]
 }
 
 #[cfg(test)]

@@ -280,7 +280,9 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
         at += group.len;
         square.view((at - group.len, at - group.len), (group.len, group.len)).norm_squared()
     });
-    let rounds = (time.abs() * own.sum::<f64>().powf(0.25) / TAU).clamp(ROUNDS.0, ROUNDS.1).ceil();
+    let turns = time.abs() * own.sum::<f64>().powf(0.25) / TAU;
+    // Where there are no rates there is no motion, which the first round says.
+    let rounds = if turns.is_nan() { ROUNDS.0 } else { turns.clamp(ROUNDS.0, ROUNDS.1).ceil() };
     let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {

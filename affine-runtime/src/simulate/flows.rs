@@ -179,7 +179,8 @@ where
 {
     /// Puts a body into its lane, or aside.
     fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
-        placed_at(&(self.t, point))?;
+        let moving = Moving { handle: Stepping(handle.clone()), begin: self.begin };
+        placed_at(&moving, &(self.t, point))?;
         let steps = self.steps(number);
         let fits =
             self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point, steps));

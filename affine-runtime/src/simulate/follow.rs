@@ -43,6 +43,10 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
         // Up to an event or a halt within the last step.
         let kept = self.keep_through(motion, self.turned_at());
         self.trajectory.statistics = self.place.cost().and(motion.statistics());
+        if self.trajectory.end.0 == motion.t() {
+            // An end that stands is that of a good step, whoever ends the run there.
+            self.steps = self.trajectory.statistics.steps;
+        }
         self.trajectory.computation.residual = motion.residual();
         outcome.and(kept)
     }

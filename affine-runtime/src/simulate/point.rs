@@ -2,9 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use crate::error::{Callback, Reason};
+use super::mechanics::Mechanics;
+use crate::error::{Callback, Error, Reason, Setting};
 use crate::frames::Matrix;
-use crate::inner::{LogDeterminant, sum_of_squares};
+use crate::inner::{LogDeterminant, on_the_group, sum_of_squares};
 use crate::state::Phase;
 
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
@@ -30,6 +31,24 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
         return Ok(());
     }
     Err(Reason::Placement { determinant: determinant.to_f64(), rate: None, t })
+}
+
+/// Placements are this many times as far off a constraint as constructors allow, before a motion does not start from them: long ones
+/// leave some of it.
+const FAR_OFF: f64 = 1e8;
+
+/// Refuses a start that is off the constraint of its model.
+pub(super) fn check_constraint<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    start: &P,
+) -> Result<(), Reason> {
+    let Some(constraint) = model.description().constraint else { return Ok(()) };
+    match on_the_group(constraint, start.in_orthonormal(model.bases().as_ref()).phi()) {
+        Err(Error::OffConstraint { defect, threshold, .. }) if !(defect <= FAR_OFF * threshold) => {
+            Err(Setting::OffConstraint { defect }.into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A few products settle the sign of most determinants; what is close to zero, or out of the range of numbers,

@@ -10,7 +10,7 @@ use super::layout::total;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::outcome::{Halt, Outcome};
-use super::point::check;
+use super::point::{check, check_constraint};
 use super::recorder::{Recorder, Turn};
 use super::settings::{Plan, Settings};
 use super::simulation::Simulation;
@@ -72,7 +72,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let at_start = self.energy_at_start();
         let mut trajectory = self.empty_trajectory(&at_start);
         let model = self.model;
-        let outcome = self.drive(&mut trajectory, at_start);
+        let mut good = 0;
+        let outcome = self.drive(&mut trajectory, at_start, &mut good);
         // The end is the last output, as a rule; an event may have changed it since.
         let last = trajectory.times.last().zip(trajectory.energies.outputs.last());
         trajectory.energies.end = match (&outcome, last) {
@@ -84,7 +85,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         match outcome {
             Ok(_) => Ok(trajectory),
             Err(reason) => {
-                let stop = Stop { reason, t: trajectory.end.0, steps: trajectory.statistics.steps };
+                // A closed form takes none, and a step that was refused is none.
+                let steps = good.min(trajectory.statistics.steps);
+                let stop = Stop { reason, t: trajectory.end.0, steps };
                 Err(Halt { stop, trajectory: Box::new(trajectory) })
             }
         }
@@ -100,12 +103,18 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         Trajectory { dense, ..empty_trajectory(self.model, plan, start, at_start) }
     }
 
-    /// To the end, or to an event that ends the run; the energy there, where it was looked at.
-    fn drive(&mut self, trajectory: &mut Trajectory<N, P>, at_start: Energy) -> Result<Option<f64>, Reason> {
+    /// To the end, or to an event that ends the run, by good steps; the energy there, where it was looked at.
+    fn drive(
+        &mut self,
+        trajectory: &mut Trajectory<N, P>,
+        at_start: Energy,
+        good: &mut u64,
+    ) -> Result<Option<f64>, Reason> {
         let description = self.model.description();
         let (t_end, schedule) = self.settings.checked(description)?;
         let Plan { t0, max_steps, .. } = self.settings.plan;
         check(t0, &self.settings.start)?;
+        check_constraint(self.model, &self.settings.start)?;
         let events: Vec<&'static str> = self.settings.events.iter().map(|event| event.name).collect();
         let mut recorder = Recorder {
             model: self.model,
@@ -132,6 +141,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             origin = self.take_up(checkpoint, &events, &mut recorder)?;
         }
         let outcome = self.legs(&mut origin, at_start, &mut recorder);
+        *good = recorder.steps;
         let interrupted = matches!(outcome, Err(Reason::Interrupted(_) | Reason::StepLimit { .. }));
         if (interrupted || recorder.trajectory.stopped_by.is_some()) && !recorder.is_lost {
             let place = Place { outputs: recorder.schedule.taken(), ..recorder.place };

@@ -8,7 +8,7 @@ use super::guard::{Guard, explained};
 use super::mechanics::{Mechanics, Moving};
 use super::method::Method;
 use super::motion::{Goal, Launched, Motion, PointOf, Stepping};
-use super::point::{check, is_clearly_positive};
+use super::point::{check, check_constraint, is_clearly_positive};
 use super::range::in_range;
 use super::settings::{Plan, long_enough};
 use crate::error::{Reason, Setting};
@@ -195,7 +195,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
     /// # Errors
     /// Those of a point that is none, or of a time that is none.
     pub(super) fn put(&mut self, start: (f64, PointOf<N, H>)) -> Result<(), Reason> {
-        placed_at(&start)?;
+        placed_at(&self.moving, &start)?;
         self.anew = Some(start);
         Ok(())
     }
@@ -252,9 +252,12 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
 }
 
 /// Refuses a start that is no point, or at no time.
-pub(super) fn placed_at<const N: usize, P: Phase<N>>((t, point): &(f64, P)) -> Result<(), Reason> {
+pub(super) fn placed_at<const N: usize, P: Phase<N>>(
+    model: &dyn Mechanics<N, P>,
+    (t, point): &(f64, P),
+) -> Result<(), Reason> {
     match t.is_finite() {
-        true => check(*t, point),
+        true => check(*t, point).and_then(|()| check_constraint(model, point)),
         false => Err(Setting::Time { name: "the time of the start", given: *t }.into()),
     }
 }
@@ -268,7 +271,7 @@ fn begun<'a, const N: usize, H: Handle<N> + 'a>(
 ) -> Result<(Way<'a, N, H>, bool), Reason> {
     let (t, point) = start;
     plan.checked_method(moving.description())?;
-    placed_at(&start)?;
+    placed_at(moving, &start)?;
     has_value(moving, (t, &point))?;
     plan.checked_step(t, t)?;
     match (plan.method, moving.geodesic(t, &point)) {

@@ -40,6 +40,22 @@ fn they_are_the_integrals() {
     }
 }
 
+/// With two zeros the integrals diverge, and with negative arguments there are none.
+#[test]
+fn elsewhere_they_are_no_numbers() {
+    for [x, y, z] in
+        [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [-1.0, 1.0, 2.0], [f64::NAN, 1.0, 2.0]]
+    {
+        assert!(carlson_rf(x, y, z).is_nan(), "{x} {y} {z}");
+    }
+    assert!(carlson_rd(0.0, 0.0, 1.0).is_nan());
+    // The smallest and the largest numbers there are.
+    let [tiny, huge] = [f64::from_bits(1), 1e308];
+    for [x, y, z] in [[0.0, tiny, huge], [tiny, tiny, huge], [0.0, tiny, tiny]] {
+        assert!(carlson_rf(x, y, z).is_finite(), "{x} {y} {z}");
+    }
+}
+
 #[test]
 fn another_implementation_agrees() {
     for [x, y, z] in ARGUMENTS {

@@ -306,6 +306,21 @@ fn classes_and_slopes_are_found_out() {
             if WRONG_SLOPE { Slopes { phi: slopes.phi.transpose(), ..slopes } } else { slopes }
         }
     }
+    /// A false claim of a small energy.
+    struct Small;
+    impl Potential<3> for Small {
+        const CLASS: Class = Class::Isotropic;
+        fn energy<T: Scalar>(&self, place: &Place<3, T>) -> T {
+            T::constant(1e-12, 0.0) * place.phi[(0, 0)]
+        }
+        fn slopes<T: Scalar>(&self, _: &Place<3, T>) -> Slopes<3, T> {
+            let mut phi = Matrix::<3, T>::from_fn(|_, _| T::zero());
+            phi[(0, 0)] = T::constant(1e-12, 0.0);
+            Slopes { x: Vector::<3, T>::from_fn(|_, _| T::zero()), phi }
+        }
+    }
+    let small = sampling::check_potential::<3, _>(&Small, sampling::places(20)).unwrap_err();
+    assert!(matches!(small, sampling::Unsound::Class { .. }), "{small}");
     let class = sampling::check_potential::<3, _>(&Off::<false>, sampling::places(20)).unwrap_err();
     assert!(matches!(class, sampling::Unsound::Class { class: Class::Isotropic, .. }), "{class}");
     assert!(class.to_string().contains("Isotropic"), "{class}");

@@ -76,7 +76,8 @@ impl Constants {
     }
 
     fn bind_atom(&mut self, arena: &mut Arena, atom: Expr, varies: &impl Fn(Expr) -> bool) -> Expr {
-        let slow = |arena: &Arena, below: Expr| !arena.any_symbol(below, &mut |s| varies(s));
+        let slow =
+            |arena: &Arena, below: Expr| !varies(below) && !arena.any_symbol(below, &mut |s| varies(s));
         if arena.as_symbol(atom).is_some() || slow(arena, atom) {
             return atom;
         }

@@ -1,6 +1,7 @@
 //! What is computed together: the rates of a system, and what a closed form reads.
 
 use crate::algebra::bind::Constants;
+use crate::algebra::fault::record;
 use crate::algebra::ring::above_diagonal;
 use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Polynomial, Rational};
@@ -24,8 +25,12 @@ pub(super) fn program(
 
 /// The program of results that have no coefficients, whatever they read.
 pub(super) fn unbound(arena: &mut Arena, results: Vec<(Symbol, Polynomial)>) -> Program {
-    let batch = Batch { results, ..Batch::default() };
-    fuse(&straight_line(arena, &batch, &mut Constants::new(Quantity::Coefficient), &|_| true))
+    let (batch, mut none) = (Batch { results, ..Batch::default() }, Constants::new(Quantity::Coefficient));
+    let program = straight_line(arena, &batch, &mut none, &|_| true);
+    if !none.entries.is_empty() {
+        record("what reads everything has no coefficients");
+    }
+    fuse(&program)
 }
 
 /// The program of values over the fields alone.

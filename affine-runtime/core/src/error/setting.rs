@@ -66,9 +66,10 @@ pub enum Setting {
         #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::interned::word"))]
         model: Word,
     },
-    /// The start is off the constraint `det phi = 1` or its velocity off `tr(phi^-1 phi_dot) = 0`.
+    /// The start is off its constraint; by [`Method::Rattle`](../enum.Method.html#variant.Rattle), off `det phi = 1` or
+    /// `tr(phi^-1 phi_dot) = 0`.
     OffConstraint {
-        /// The larger of the two relative defects.
+        /// How far it is: `|det phi - 1|`, `|phi^T phi - 1|`, or the distance of `phi^T phi` from a multiple of 1.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         defect: f64,
     },
@@ -252,8 +253,9 @@ impl fmt::Display for Setting {
             ),
             Setting::OffConstraint { defect } => write!(
                 f,
-                "the start is off det phi = 1, or its velocity off tr(phi^-1 phi_dot) = 0, by {defect:e}: scale phi by \
-                 det(phi)^(-1/n), and take the part of the velocity along phi away"
+                "the start is off its constraint by {defect:e}: det phi = 1 and tr(phi^-1 phi_dot) = 0 of an isochoric body, \
+                 phi^T phi = 1 of a rigid one, a multiple of 1 of a conformal one. Scale phi by det(phi)^(-1/n), or take the \
+                 rotation of its polar decomposition, and make the point by `at_velocity` or `at_momentum`"
             ),
             Setting::NotEmitted { model, key } => write!(
                 f,
