@@ -8,7 +8,7 @@ use affine_runtime::Error;
 use affine_runtime::decompose::LinearMap;
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Reason;
+use affine_runtime::simulate::{Reason, Setting};
 
 use affine_tests::charts::{T0, assert_charts_lead_back, assert_reduced_equations_move, groups};
 use affine_tests::group::{Start, assert_components, assert_listed, diagonal, none, off_the_group, starts};
@@ -466,9 +466,9 @@ fn the_velocity_on_a_group_is_the_projected_slope_that_is_printed() {
 /// A point that no constructor gives, read from numbers: nothing moves from it, unless it is off by what long motions leave.
 #[test]
 fn starts_off_the_constraint_are_refused() {
-    #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)), emit(splitting))]
+    #[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 1.5, 2)))]
     struct Top;
-    #[affine_model(dim = 2, constraint = isochoric, metric(space = diag(2, 1), body = diag(1, 3)), kinetic(dalembert = 1))]
+    #[affine_model(dim = 2, constraint = isochoric, metrics(space = diag(2, 1), body = diag(1, 3)), kinetic(dalembert = 1))]
     struct Drop;
     fn refused<const N: usize, M: Model<N>>(model: &M, start: M::Point<f64>, far: f64) {
         let scaled = |by: f64| {

@@ -44,7 +44,7 @@ pub(super) fn check_constraint<const N: usize, P: Phase<N>>(
 ) -> Result<(), Reason> {
     let Some(constraint) = model.description().constraint else { return Ok(()) };
     match on_the_group(constraint, start.in_orthonormal(model.bases().as_ref()).phi()) {
-        Err(Error::OffConstraint { defect, threshold, .. }) if !(defect <= FAR_OFF * threshold) => {
+        Err(Error::OffConstraint { defect, threshold, .. }) if defect > FAR_OFF * threshold => {
             Err(Setting::OffConstraint { defect }.into())
         }
         _ => Ok(()),
