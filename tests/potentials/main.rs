@@ -72,7 +72,8 @@ fn numbers_in_functions_of_fields() {
     let rest = beside.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();
     let stiffness = (2.0_f64.sqrt() * c).sin();
     energy(beside.hamiltonian(0.0, &rest), 2.0 * stiffness);
-    let (_, end) = Simulation::new(&beside, rest).until(1.0).tolerance(1e-12).run().unwrap().end().to_owned();
+    let run = Simulation::new(&beside, rest).until(1.0).tolerance(1e-12).run().unwrap();
+    let (_, end) = run.end();
     assert!((end.phi()[(0, 0)] - (2.0 * stiffness / m).sqrt().cos()).abs() < 1e-10);
     let several = Several { m, a, b, c }.prepare().unwrap();
     let rest = several.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();

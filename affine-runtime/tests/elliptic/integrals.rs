@@ -48,7 +48,7 @@ fn elsewhere_they_are_no_numbers() {
     {
         assert!(carlson_rf(x, y, z).is_nan(), "{x} {y} {z}");
     }
-    assert!(carlson_rd(0.0, 0.0, 1.0).is_nan());
+    assert!(carlson_rd(0.0_f64, 0.0, 1.0).is_nan());
     // The smallest and the largest numbers there are.
     let [tiny, huge] = [f64::from_bits(1), 1e308];
     for [x, y, z] in [[0.0, tiny, huge], [tiny, tiny, huge], [0.0, tiny, tiny]] {
