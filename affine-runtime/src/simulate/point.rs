@@ -42,8 +42,9 @@ pub(super) fn check_constraint<const N: usize, P: Phase<N>>(
     model: &dyn Mechanics<N, P>,
     start: &P,
 ) -> Result<(), Reason> {
+    // The group is that of orthonormal bases, and constraints go with no others.
     let Some(constraint) = model.description().constraint else { return Ok(()) };
-    match on_the_group(constraint, start.in_orthonormal(model.bases().as_ref()).phi()) {
+    match on_the_group(constraint, start.phi()) {
         Err(Error::OffConstraint { defect, threshold, .. }) if defect > FAR_OFF * threshold => {
             Err(Setting::OffConstraint { defect }.into())
         }
