@@ -179,8 +179,7 @@ where
 {
     /// Puts a body into its lane, or aside.
     fn put(&mut self, number: usize, handle: H, point: PointOf<N, H>) -> Result<(), Reason> {
-        let moving = Moving { handle: Stepping(handle.clone()), begin: self.begin };
-        placed_at(&moving, &(self.t, point))?;
+        placed_at(H::Model::DESCRIPTION.constraint, &(self.t, point))?;
         let steps = self.steps(number);
         let fits =
             self.eight_mut(number).is_some_and(|(eight, lane)| eight.put(lane, &handle, &point, steps));

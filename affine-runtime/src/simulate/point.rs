@@ -2,10 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::mechanics::Mechanics;
 use crate::error::{Callback, Error, Reason, Setting};
 use crate::frames::Matrix;
 use crate::inner::{LogDeterminant, on_the_group, sum_of_squares};
+use crate::model::Constraint;
 use crate::state::Phase;
 
 /// Part of `|phi|^n` above which a determinant is positive whatever the rounding of a few products.
@@ -37,15 +37,14 @@ pub(super) fn check<const N: usize, P: Phase<N>>(t: f64, point: &P) -> Result<()
 /// leave some of it.
 const FAR_OFF: f64 = 1e8;
 
-/// Refuses a start that is off the constraint of its model.
+/// Refuses a start that is off the constraint of its model, if that has one. Its group is that of orthonormal bases, and constraints
+/// go with no others.
 pub(super) fn check_constraint<const N: usize, P: Phase<N>>(
-    model: &dyn Mechanics<N, P>,
+    constraint: Option<Constraint>,
     start: &P,
 ) -> Result<(), Reason> {
-    // The group is that of orthonormal bases, and constraints go with no others.
-    let Some(constraint) = model.description().constraint else { return Ok(()) };
-    match on_the_group(constraint, start.phi()) {
-        Err(Error::OffConstraint { defect, threshold, .. }) if defect > FAR_OFF * threshold => {
+    match constraint.map(|constraint| on_the_group(constraint, start.phi())) {
+        Some(Err(Error::OffConstraint { defect, threshold, .. })) if defect > FAR_OFF * threshold => {
             Err(Setting::OffConstraint { defect }.into())
         }
         _ => Ok(()),

@@ -114,7 +114,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let (t_end, schedule) = self.settings.checked(description)?;
         let Plan { t0, max_steps, .. } = self.settings.plan;
         check(t0, &self.settings.start)?;
-        check_constraint(self.model, &self.settings.start)?;
+        check_constraint(description.constraint, &self.settings.start)?;
         let events: Vec<&'static str> = self.settings.events.iter().map(|event| event.name).collect();
         let mut recorder = Recorder {
             model: self.model,

@@ -14,7 +14,7 @@ use super::settings::{Plan, long_enough};
 use crate::error::{Reason, Setting};
 use crate::frames::Matrix;
 use crate::integrate::{Failure, Statistics};
-use crate::model::{Handle, Model};
+use crate::model::{Constraint, Handle, Model};
 use crate::state::Phase;
 
 /// A body that is moved step by step.
@@ -195,7 +195,7 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
     /// # Errors
     /// Those of a point that is none, or of a time that is none.
     pub(super) fn put(&mut self, start: (f64, PointOf<N, H>)) -> Result<(), Reason> {
-        placed_at(&self.moving, &start)?;
+        placed_at(H::Model::DESCRIPTION.constraint, &start)?;
         self.anew = Some(start);
         Ok(())
     }
@@ -253,11 +253,11 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Stepped<'a, N, H> {
 
 /// Refuses a start that is no point, or at no time.
 pub(super) fn placed_at<const N: usize, P: Phase<N>>(
-    model: &dyn Mechanics<N, P>,
+    constraint: Option<Constraint>,
     (t, point): &(f64, P),
 ) -> Result<(), Reason> {
     match t.is_finite() {
-        true => check(*t, point).and_then(|()| check_constraint(model, point)),
+        true => check(*t, point).and_then(|()| check_constraint(constraint, point)),
         false => Err(Setting::Time { name: "the time of the start", given: *t }.into()),
     }
 }
@@ -271,7 +271,7 @@ fn begun<'a, const N: usize, H: Handle<N> + 'a>(
 ) -> Result<(Way<'a, N, H>, bool), Reason> {
     let (t, point) = start;
     plan.checked_method(moving.description())?;
-    placed_at(moving, &start)?;
+    placed_at(H::Model::DESCRIPTION.constraint, &start)?;
     has_value(moving, (t, &point))?;
     plan.checked_step(t, t)?;
     match (plan.method, moving.geodesic(t, &point)) {
