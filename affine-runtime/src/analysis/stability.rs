@@ -81,6 +81,10 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
     /// [`AnalysisError::NoDecomposition`].
     pub fn stability<M: Model<N, Point<f64> = P>>(&self, model: &M) -> Result<Stability<N>, AnalysisError> {
         let at = Linearised::at(model, &self.zeta, &self.point);
+        // The point is open to be set.
+        if at.motion.iter().any(|entry| !entry.is_finite()) {
+            return Err(AnalysisError::NoDecomposition);
+        }
         let slice = Slice::of(&at);
         let (motion, energy) = (slice.columns.tr_mul(&at.motion) * &slice.columns, slice.energy(&at));
         let eigenvalues = spectrum(&motion, energy.as_ref())?;

@@ -107,7 +107,7 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
     /// Moves to the time `t`, forward or backward, and stands there exactly.
     ///
     /// # Errors
-    /// [`LatticeStop`] with the last good state, now and ever after.
+    /// [`LatticeStop`] with the last good state, where it stays until it is asked for another time.
     pub fn advance_to(&mut self, t: f64) -> Result<&Lattice<N>, LatticeStop<N>> {
         if !t.is_finite() {
             let reason = StopReason::Conversion(Error::NotFinite { quantity: "t" });

@@ -73,6 +73,10 @@ pub(super) fn program<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>, field
 fn field_value(values: &[f64]) -> String {
     match values {
         [value] => format!("{value:?}"),
+        // Larger ones have no constructor of single numbers.
+        values if values.len() > 36 => {
+            format!("Matrix::<{}>::from_row_slice(&[{}])", values.len().isqrt(), listed(values))
+        }
         values => format!("Matrix::<{}>::new({})", values.len().isqrt(), listed(values)),
     }
 }

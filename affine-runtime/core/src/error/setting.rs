@@ -275,7 +275,8 @@ impl fmt::Display for Setting {
             Setting::Checkpoint { model } => write!(
                 f,
                 "the checkpoint is not of this run of {model}, or not as it was written: resume with the model, its \
-                 parameters, the start, method, tolerance, times, outputs and events of the run that was interrupted"
+                 parameters, the start, method, tolerance, times, outputs and events of the run that was interrupted, and into a \
+                 folder with its format, columns and rows of a file"
             ),
             Setting::Body { number, of } => write!(f, "body {number} of {of}: bodies are counted from 0"),
             Setting::Shard { k, of } => write!(f, "shard {k} of {of}: of one or more, counted from 0"),

@@ -201,8 +201,8 @@ impl fmt::Display for Reason {
             Reason::Setting(setting) => setting.fmt(f),
             Reason::NotFinite => f.write_str(
                 "the equations of motion or the phase point are not finite any more: the motion has left the range \
-                 of numbers, or met a singularity of the model or a root without a slope, as `norm(x)` at x = 0; end the \
-                 run before, or change the potential",
+                 of numbers, met a singularity of the model or a root without a slope, as `norm(x)` at x = 0, or took equal \
+                 steps that are too long for it; shorten these, end the run before, or change the potential",
             ),
             Reason::Placement { determinant, rate, t } => {
                 match determinant {
