@@ -57,6 +57,11 @@ fn metrics_turn_in_their_own_bases() {
     let found = relative_equilibrium(&Measured, &guess, &turn, &[Condition::Velocity(0, 0.6)]).unwrap();
     assert!(unrest(&Measured, &found, 20.0) < 1e-9);
     assert!(found.stability(&Measured).unwrap().verdict == StabilityVerdict::Stable);
+    // Nothing is known of a point that is none.
+    for entry in [f64::NAN, f64::INFINITY] {
+        let lost = RelativeEquilibrium { point: Measured.unflatten(&[entry; 18]), ..found.clone() };
+        assert_eq!(lost.stability(&Measured).unwrap_err(), AnalysisError::NoDecomposition);
+    }
 }
 
 /// Bodies with drawn inertias and stiffnesses, that turn about a principal axis: what is found stays so for a
