@@ -24,6 +24,7 @@ mod newton;
 #[cfg(feature = "report")]
 mod pictures;
 mod relative;
+mod singular;
 mod spectrum;
 mod stability;
 mod symmetry;

@@ -8,7 +8,7 @@ use super::error::AnalysisError;
 use super::field::{full, normals, symplectic_form, vector};
 use super::generator::place;
 use super::jacobian::JacobianMatrix;
-use super::linear::{RANK, from_columns, kernel};
+use super::linear::{RANK, decomposed, from_columns, kernel};
 use crate::dual::{Dual, fixed};
 use crate::integrate::RungeKutta8;
 use crate::model::{Group, Model, Quantity};
@@ -211,8 +211,7 @@ impl Sensitivities {
         both.rows_mut(0, own).fill_with_identity();
         let places = flow.positions();
         let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
-        let inverse = both.select_rows(&rows).pseudo_inverse(RANK);
-        let inverse = inverse.map_err(|_| AnalysisError::NoDecomposition)?;
+        let inverse = inverse(both.select_rows(&rows), places.len())?;
         // Bases in which the metrics are the identity change with them, and a place and a velocity that are held change in these.
         let rates = model.hamilton_equations(t0, &full::<N, F::Prepared>(&flow.start));
         let mut moving = flow.start.clone();
@@ -230,6 +229,19 @@ impl Sensitivities {
         let by_fields_at_velocity = &by_fields + &by_velocity * held;
         Ok(Self { by_start, by_velocity, by_fields, by_fields_at_velocity })
     }
+}
+
+/// The inverse of how places and velocities depend on the plain array, as far as there is one. Velocities are small in heavy bodies,
+/// and none the less.
+fn inverse(mut matrix: DMatrix<f64>, places: usize) -> Result<DMatrix<f64>, AnalysisError> {
+    let size = matrix.rows(places, places).norm();
+    let unit = if size > 0.0 { size } else { 1.0 };
+    matrix.rows_mut(places, places).unscale_mut(unit);
+    let svd = decomposed(matrix).ok_or(AnalysisError::NoDecomposition)?;
+    let none = RANK * svd.singular_values.max();
+    let mut inverse = svd.pseudo_inverse(none).map_err(|_| AnalysisError::NoDecomposition)?;
+    inverse.columns_mut(places, places).unscale_mut(unit);
+    Ok(inverse)
 }
 
 /// The derivatives of a function of coefficients, over the plain array, by fields in columns.

@@ -3,6 +3,7 @@
 use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
 
 use super::error::AnalysisError;
+use super::singular::singular;
 
 /// Vectors and matrices.
 pub(super) type Column = DVector<f64>;
@@ -21,7 +22,7 @@ pub(super) fn from_columns(rows: usize, columns: &[Column]) -> Dense {
 /// Singular values of a matrix that is not empty, with its vectors; `None` for numbers that are not finite.
 pub(super) fn decomposed<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> Option<SVD<T, Dyn, Dyn>> {
     let is_finite = !matrix.is_empty() && matrix.iter().all(|entry| entry.clone().is_finite());
-    if is_finite { matrix.try_svd(true, true, f64::EPSILON, MOST_SWEEPS) } else { None }
+    is_finite.then(|| singular(matrix))
 }
 
 /// An orthonormal basis of what a matrix maps to zero: singular values below a part of the largest are none. Empty where
@@ -64,5 +65,6 @@ pub(super) fn solved(matrix: &Dense, right: &Column) -> Result<Column, AnalysisE
         return Ok(Column::zeros(matrix.ncols()));
     }
     let svd = decomposed(matrix.clone()).ok_or(AnalysisError::NoDecomposition)?;
-    svd.solve(right, RANK).map_err(|_| AnalysisError::NoDecomposition)
+    let none = RANK * svd.singular_values.max();
+    svd.solve(right, none).map_err(|_| AnalysisError::NoDecomposition)
 }

@@ -4,6 +4,7 @@ use super::layout::{Layout, has_work};
 use super::method::Method;
 use crate::error::Reason;
 use crate::model::{Model, Quantity};
+use crate::state::Phase;
 
 /// [`Method::Automatic`](super::Method::Automatic) takes the Radau method where velocities die out so many times, by powers of e, from the start to the
 /// end: steps of order 8 are at most 6.4 of these times long, and on problems of viscous bodies 250 of them take as many
@@ -71,7 +72,7 @@ fn fastest<const N: usize, M: Model<N>>(
         from = end;
     }
     let places = places.get(..count).filter(|places| !places.is_empty())?;
-    // Energy and power at momenta `a e_i + b e_j`, and none else.
+    // Kinetic energy and power at momenta `a e_i + b e_j`, and none else.
     let at = |steps: [(usize, f64); 2]| {
         let mut state = reduced;
         places.iter().for_each(|place| state.as_mut()[*place] = 0.0);
@@ -79,11 +80,14 @@ fn fastest<const N: usize, M: Model<N>>(
         let state = model.renewed(&state);
         asked.set(asked.get() + 1);
         let rates = model.reduced_equations(t0, &constants, &state);
-        let energy = model.hamiltonian(t0, &model.expand(t0, &constants, &state));
-        (energy, rates.as_ref()[work])
+        // Of the momenta alone: beside a large potential it would be lost.
+        let point = model.expand(t0, &constants, &state);
+        let velocity = model.velocity(&point);
+        let internal = point.pi().0.0.transpose().dot(&velocity.phi_dot);
+        (0.5 * (internal + point.p().dot(&velocity.x_dot)), rates.as_ref()[work])
     };
     let (mut inertia, mut friction) = (Form::identity(), Form::zeros());
-    let unit = unit(|step| at([(0, step), (0, 0.0)]).0);
+    let unit = unit(at([(0, 1.0), (0, 0.0)]).0);
     let (energy, power) = at([(0, 0.0); 2]);
     let mut before = [(0.0, 0.0); MOMENTA];
     for i in 0..count {
@@ -102,10 +106,9 @@ fn fastest<const N: usize, M: Model<N>>(
     Some(spectral_radius(inertia.lu().solve(&friction)?))
 }
 
-/// A momentum whose energy is about that of the body at rest, so that neither is lost in the rounding of the other.
-fn unit(energy: impl Fn(f64) -> f64) -> f64 {
-    let at_rest = energy(0.0);
-    let unit = libm::sqrt((1.0 + at_rest.abs()) / (energy(1.0) - at_rest).abs());
+/// A momentum whose kinetic energy is about 1, by that of the momentum 1, in whatever units.
+fn unit(energy: f64) -> f64 {
+    let unit = libm::sqrt(1.0 / energy.abs());
     if unit.is_finite() && unit > 0.0 { unit } else { 1.0 }
 }
 
