@@ -145,5 +145,5 @@ fn the_analysis_is_small() {
     let files = arrows.of.keys().filter(|file| stem(file) == "analysis");
     let lines: usize =
         files.map(|file| lines_of_code(&std::fs::read_to_string(src.join(file)).unwrap())).sum();
-    assert!((1000..=2100).contains(&lines), "{lines} lines");
+    assert!((1000..=2200).contains(&lines), "{lines} lines");
 }

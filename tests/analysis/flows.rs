@@ -253,3 +253,30 @@ fn constraints_have_sensitivities() {
     });
     assert!((&found.by_velocity * faster - known.transpose()).norm() < 1e-8, "{found:?}");
 }
+
+/// The masses of needles and of stars are of no account.
+#[test]
+fn heavy_bodies_have_sensitivities() {
+    #[affine_model(dim = 2, kinetic(dalembert = j), potential = hyperbolic_dilatation(k) + neo_hookean(c))]
+    struct Heavy {
+        j: f64,
+        k: f64,
+        c: f64,
+    }
+    let by_velocity = |mass: f64| {
+        let fields = Heavy { j: mass, k: 4.0 * mass, c: 0.3 * mass };
+        let model = fields.prepare().unwrap();
+        let (phi, rate) = (Matrix::<2>::new(1.1, 0.0, 0.0, 0.9), Matrix::<2>::new(0.0, -0.3, 0.3, 0.1));
+        let start = model.at_velocity(phi, rate).unwrap();
+        Sensitivities::of(&fields, &model, (0.0, &start), 2.0, 1e-11)
+            .unwrap()
+            .by_velocity
+            .rows(0, 4)
+            .clone_owned()
+    };
+    let known = by_velocity(1.0);
+    assert!(known.norm() > 1.0);
+    for mass in [1e-12, 1e9, 1e12, 1e20] {
+        assert!((by_velocity(mass) - &known).norm() < 1e-8 * known.norm(), "{mass:e}");
+    }
+}

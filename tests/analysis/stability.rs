@@ -184,3 +184,36 @@ fn viscosity_makes_stars_unstable() {
         }
     }
 }
+
+/// Bodies whose frequencies coincide, as those of balls do: singular values that are alike or vanish tell nothing untrue.
+#[test]
+fn round_bodies_have_their_stability_from_any_guess() {
+    #[affine_model(
+        dim = 3,
+        kinetic(casimir2 = 0.2, body_inertia = 1),
+        potential = hyperbolic_dilatation(10) + neo_hookean(0.5),
+        dissipation(body_inertia = 0.1)
+    )]
+    struct Ball;
+    #[affine_model(
+        dim = 3,
+        kinetic(body_inertia = 1, space_translation = 1),
+        potential = hyperbolic_dilatation(1) + neo_hookean(1) + 0.4*norm(x)^2,
+        dissipation(space_inertia = 0.3)
+    )]
+    struct Spring;
+    for k in 0..24 {
+        let part = |place: usize| 0.1 * (f64::from(k) * 1.7 + place as f64 * 2.3).sin();
+        let phi = Matrix::<3>::identity() + Matrix::<3>::from_fn(|i, j| part(3 * i + j));
+        let guess = Ball.at_velocity(phi, Matrix::zeros()).unwrap();
+        let verdict = |found: Result<StabilityVerdict, AnalysisError>| found.unwrap();
+        let ball = equilibrium(&Ball, &guess).and_then(|rest| rest.stability(&Ball));
+        assert_eq!(verdict(ball.map(|found| found.verdict)), StabilityVerdict::Stable, "guess {k}");
+        // Its centre vibrates for ever.
+        let x = Vector::<3>::from_fn(|i, _| part(10 + i));
+        let guess = Spring.at_velocity(x, phi, Vector::zeros(), Matrix::zeros()).unwrap();
+        let spring = equilibrium(&Spring, &guess).and_then(|rest| rest.stability(&Spring));
+        let verdict = verdict(spring.map(|found| found.verdict));
+        assert_eq!(verdict, StabilityVerdict::Undecided(Doubt::Neutral), "guess {k}");
+    }
+}

@@ -213,3 +213,53 @@ fn explicit_steps_cost_more() {
         .map(|method| problem.simulation(1e-9).method(method).run().unwrap().statistics().evaluations);
     assert!(explicit > 150 * implicit, "{explicit} for {implicit}");
 }
+
+/// Units of mass and time are of no account: stars, needles and bodies whose time is nanoseconds take the same steps by the same method.
+#[test]
+fn units_are_of_no_account() {
+    #[affine_model(dim = 3, constraint = isochoric, kinetic(body_inertia = j), potential = k*tr(G), dissipation(body_inertia = r))]
+    struct Held {
+        j: f64,
+        k: f64,
+        r: f64,
+    }
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = j),
+        potential = hyperbolic_dilatation(k) + neo_hookean(k),
+        dissipation(body_inertia = r),
+        emit(splitting)
+    )]
+    struct Disc {
+        j: f64,
+        k: f64,
+        r: f64,
+    }
+    let phi = Matrix::<3>::new(1.0, 0.2, 0.0, 0.0, 1.0, 0.1, 0.0, 0.0, 1.0);
+    let rate = Matrix::<3>::new(0.0, -1.0, 0.3, 1.0, 0.0, -0.2, -0.3, 0.2, 0.0);
+    let flat = Matrix::<2>::new(1.2, 0.1, 0.0, 0.9);
+    let mut seen: Vec<(u64, Matrix<3>, u64, Matrix<2>)> = Vec::new();
+    for (mass, time) in [(1.0, 1.0), (1e12, 1.0), (1e-12, 1.0), (1.0, 1e-9), (1.0, 1e9), (1e9, 1e-6)] {
+        let stiffness = mass / (time * time);
+        let held = Held { j: mass, k: stiffness, r: 2000.0 * mass / time }.prepare().unwrap();
+        let start = held.at_velocity(phi, phi * rate / time).unwrap();
+        let viscous = Simulation::new(&held, start).until(10.0 * time).tolerance(1e-8).run().unwrap();
+        assert!(matches!(viscous.computation().method, Method::Radau { .. }), "{mass} {time}");
+        let disc = Disc { j: mass, k: stiffness, r: 2000.0 * mass / time }.prepare().unwrap();
+        let start = disc.at_velocity(flat, Matrix::zeros()).unwrap();
+        let fallen = Simulation::new(&disc, start).until(10.0 * time).tolerance(1e-8).run().unwrap();
+        assert!(matches!(fallen.computation().method, Method::Radau { .. }), "{mass} {time}");
+        let refused = Simulation::new(&disc, start)
+            .until(10.0 * time)
+            .method(Method::Splitting { order: 4, step: 0.05 * time })
+            .run()
+            .unwrap_err();
+        assert!(matches!(refused.stop.reason, Reason::Friction { .. }), "{mass} {time}: {refused}");
+        let steps = [viscous.statistics().steps, fallen.statistics().steps];
+        seen.push((steps[0], *viscous.end().1.phi(), steps[1], *fallen.end().1.phi()));
+    }
+    for (held, end, disc, flat) in &seen {
+        assert_eq!((*held, *disc), (seen[0].0, seen[0].2));
+        assert!((end - seen[0].1).norm() < 1e-9 && (flat - seen[0].3).norm() < 1e-9, "{end} {flat}");
+    }
+}

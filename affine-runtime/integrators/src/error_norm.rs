@@ -182,6 +182,21 @@ impl ErrorNorm {
         if scale == 0.0 { 0.0 } else { norm(&value[work]) / scale }
     }
 
+    /// How large components of a state in some coordinates are, by their groups; of a momentum that is zero, what moves the placement
+    /// by a tenth of itself in a step of length `h`. Coordinates of a placement that are zero are those of a chart, without a unit.
+    pub(crate) fn extents<S: StateVector<f64>>(&self, h: f64, state: &S, coordinates: &S) -> S {
+        let (mut extents, mut start) = (S::zeros(), 0);
+        for (k, group) in self.groups.iter().enumerate() {
+            let range = start..start + group.len;
+            start = range.end;
+            let is_chart = group.quantity.is_placement() && norm(&coordinates.as_ref()[range.clone()]) == 0.0;
+            let size = self.scale(self.measure(k, group), range.clone(), state.as_ref(), state.as_ref());
+            let own = if is_chart { 1.0 } else { size };
+            extents.as_mut()[range].fill(if own > 0.0 { own } else { self.floor(k, h) });
+        }
+        extents
+    }
+
     /// The groups that the norm measures, one after the other.
     pub(crate) fn groups(&self) -> &'static [Group] {
         self.groups

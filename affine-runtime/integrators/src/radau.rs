@@ -198,9 +198,10 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         self.slope = self.coordinates.velocity(&self.end.value, &self.origin, &self.rate);
         let field = Field { f: &self.f, coordinates: self.coordinates, base: &self.end };
         let (start, jacobian) = ((self.t, &self.origin, &self.slope), &self.jacobian);
+        let extent = self.error_norm.extents(control.length, &self.end.value, &self.origin);
         let mut spent = 0;
         self.newton.learn(|columns| {
-            spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), start, columns);
+            spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), start, &extent, columns);
         });
         control.statistics.evaluations += spent;
     }

@@ -94,3 +94,57 @@ fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize
         columns.set_column(k, &longest.normalize());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Complex;
+
+    fn check<T: ComplexField<RealField = f64>>(matrix: &DMatrix<T>) {
+        let SVD { u: Some(u), v_t: Some(v_t), singular_values } = singular(matrix.clone()) else {
+            panic!("both are there")
+        };
+        let size = matrix.norm();
+        let values = DMatrix::from_diagonal(&singular_values.map(T::from_real));
+        let off = (&u * values * &v_t - matrix).norm();
+        assert!(off <= 1e-14 * size, "{matrix} {off:e}");
+        let unit = DMatrix::<T>::identity(u.ncols(), u.ncols());
+        assert!(
+            (u.adjoint() * &u - &unit).norm() < 1e-13 && (&v_t * v_t.adjoint() - unit).norm() < 1e-13,
+            "{matrix}"
+        );
+    }
+
+    fn noise(k: usize) -> f64 {
+        (k as f64 * 12.9898).sin()
+    }
+
+    #[test]
+    fn they_make_up_the_matrix_again() {
+        for (rows, columns) in [(1, 1), (3, 3), (9, 4), (4, 9), (18, 18)] {
+            let any = DMatrix::from_fn(rows, columns, |i, j| noise(1 + i + 31 * j));
+            check(&any);
+            check(&DMatrix::from_fn(rows, columns, |i, j| {
+                Complex::new(noise(2 + i + 17 * j), noise(5 * i + j))
+            }));
+            // Of no rank, of rank one, with columns alike, of large and of small columns.
+            check(&DMatrix::<f64>::zeros(rows, columns));
+            check(&DMatrix::from_fn(rows, columns, |i, j| noise(i + 1) * noise(j + 7)));
+            check(&DMatrix::from_fn(rows, columns, |i, j| if i % 3 == j % 3 { 1.0 } else { 0.0 }));
+            check(&DMatrix::from_fn(rows, columns, |i, j| any[(i, j)] * 1e-9_f64.powi(j as i32 % 4)));
+        }
+    }
+
+    #[test]
+    fn small_values_have_their_digits() {
+        // Columns that are orthogonal, and nine powers of ten apart.
+        let graded = DMatrix::from_fn(3, 3, |i, j| {
+            [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]][i][j] / 3.0 * 1e-9_f64.powi(j as i32)
+        });
+        let mut found: Vec<f64> = singular(graded).singular_values.iter().copied().collect();
+        found.sort_by(|a, b| b.total_cmp(a));
+        for (k, value) in found.iter().enumerate() {
+            assert!((value / 1e-9_f64.powi(k as i32) - 1.0).abs() < 1e-14, "{found:?}");
+        }
+    }
+}

@@ -220,10 +220,11 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Jacobian<M::Reduced<f
         &self,
         f: &dyn Fn(f64, &M::Reduced<f64>) -> M::Reduced<f64>,
         at: (f64, &M::Reduced<f64>, &M::Reduced<f64>),
+        extent: &M::Reduced<f64>,
         columns: &mut [M::Reduced<f64>],
     ) -> u64 {
         if self.frame.is_some() {
-            return Differences.columns(f, at, columns);
+            return Differences.columns(f, at, extent, columns);
         }
         let model = self.handle.model();
         let column = |t: f64, y: &M::Reduced<f64>, component: usize| {
@@ -235,7 +236,7 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Jacobian<M::Reduced<f
             column.as_mut().iter_mut().zip(rates.as_ref()).for_each(|(entry, rate)| *entry = rate.slope);
             column
         };
-        Exact(column).columns(f, at, columns)
+        Exact(column).columns(f, at, extent, columns)
     }
 
     /// Momenta of a velocity take one for each component and one at rest, rates and their derivative one each.

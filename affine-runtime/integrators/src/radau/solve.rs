@@ -23,8 +23,9 @@ const STAGNATED: f64 = 0.1;
 
 /// The derivatives of a right-hand side by the components of the state.
 pub trait Jacobian<S> {
-    /// Fills in one column for each component, at `(t, y)` where `f` is `slope`; the evaluations that it took.
-    fn columns(&self, f: &dyn Fn(f64, &S) -> S, at: (f64, &S, &S), columns: &mut [S]) -> u64;
+    /// Fills in one column for each component, at `(t, y)` where `f` is `slope` and components are about `extent` large; the
+    /// evaluations that it took.
+    fn columns(&self, f: &dyn Fn(f64, &S) -> S, at: (f64, &S, &S), extent: &S, columns: &mut [S]) -> u64;
 
     /// Evaluations of the equations of motion that one of `f` stands for.
     fn worth(&self) -> u64 {
@@ -37,8 +38,8 @@ pub trait Jacobian<S> {
 pub struct Differences;
 
 impl<S: StateVector<f64>> Jacobian<S> for Differences {
-    fn columns(&self, f: &dyn Fn(f64, &S) -> S, at: (f64, &S, &S), columns: &mut [S]) -> u64 {
-        by_differences(f, at, &S::zeros(), columns);
+    fn columns(&self, f: &dyn Fn(f64, &S) -> S, at: (f64, &S, &S), extent: &S, columns: &mut [S]) -> u64 {
+        by_differences(f, at, extent, columns);
         S::LEN as u64
     }
 }
@@ -48,7 +49,7 @@ impl<S: StateVector<f64>> Jacobian<S> for Differences {
 pub struct Exact<G>(pub G);
 
 impl<S: StateVector<f64>, G: Fn(f64, &S, usize) -> S> Jacobian<S> for Exact<G> {
-    fn columns(&self, _: &dyn Fn(f64, &S) -> S, (t, y, _): (f64, &S, &S), columns: &mut [S]) -> u64 {
+    fn columns(&self, _: &dyn Fn(f64, &S) -> S, (t, y, _): (f64, &S, &S), _: &S, columns: &mut [S]) -> u64 {
         columns.iter_mut().enumerate().for_each(|(component, column)| *column = (self.0)(t, y, component));
         S::LEN as u64
     }
