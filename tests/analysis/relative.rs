@@ -1,7 +1,8 @@
 //! Equilibria and relative equilibria that are known, and that they stay so.
 
 use affine_runtime::analysis::{
-    AnalysisError, Condition, Continuation, Generator, StabilityVerdict, equilibrium, relative_equilibrium,
+    AnalysisError, Condition, Continuation, Generator, RelativeEquilibrium, StabilityVerdict, equilibrium,
+    relative_equilibrium,
 };
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;

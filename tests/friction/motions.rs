@@ -2,6 +2,7 @@
 
 use affine_runtime::model::Model;
 use affine_runtime::prelude::*;
+use affine_runtime::simulate::Reason;
 use affine_runtime::state::Phase;
 
 use crate::models::{Bulk, Driven, Spring, Viscous};
