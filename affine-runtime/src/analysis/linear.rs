@@ -11,8 +11,8 @@ pub(super) type Dense = DMatrix<f64>;
 
 /// Singular values below this part of the largest are taken for zero.
 pub(super) const RANK: f64 = 1e-9;
-/// Sweeps of a decomposition.
-pub(super) const MOST_SWEEPS: usize = 10_000;
+/// Sweeps of a decomposition: two for each of some twenty eigenvalues are usual.
+pub(super) const MOST_SWEEPS: usize = 1000;
 
 /// A matrix of so many rows from its columns, of which there may be none.
 pub(super) fn from_columns(rows: usize, columns: &[Column]) -> Dense {

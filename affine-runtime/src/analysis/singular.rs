@@ -34,6 +34,10 @@ fn of_columns<T: ComplexField<RealField = f64>>(mut columns: DMatrix<T>) -> SVD<
             break;
         }
     }
+    // From the largest on.
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|a, b| columns.column(*b).norm().total_cmp(&columns.column(*a).norm()));
+    let [mut columns, turned] = [columns, turned].map(|matrix| matrix.select_columns(&order));
     let lengths: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
     for k in 0..count {
         match lengths[k] > 0.0 {

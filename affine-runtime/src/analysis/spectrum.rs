@@ -5,6 +5,10 @@ use nalgebra::{Complex, DMatrix, Schur};
 use super::error::AnalysisError;
 use super::linear::{Dense, MOST_SWEEPS, decomposed};
 
+/// Iterations from which eigenvalues are found, and by which part of the size of the matrix the next moves them.
+const ATTEMPTS: u32 = 8;
+const STEP_ASIDE: f64 = 0.137;
+
 /// An error bound is so many times the first-order estimate.
 const SAFETY: f64 = 10.0;
 /// Parts of the largest eigenvalue of a form below which one is zero.
@@ -35,12 +39,16 @@ pub(super) fn spectrum(motion: &Dense, energy: Option<&Dense>) -> Result<Vec<Eig
     if motion.is_empty() {
         return Ok(Vec::new());
     }
-    // Where rounding keeps it from the end, somewhat less is one too: errors are estimated from the matrix.
-    let decomposed = |wide: f64| Schur::try_new(motion.clone(), wide * f64::EPSILON, MOST_SWEEPS);
-    let schur =
-        [1.0, 4.0, 16.0, 64.0].into_iter().find_map(decomposed).ok_or(AnalysisError::NoDecomposition)?;
-    let values: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().copied().collect();
-    let size = motion.norm();
+    // Eigenvalues of one size, as of vibrations, may keep iterations from their end, and others, by which all are moved, do not.
+    let moved = |attempt: u32| {
+        let by = f64::from(attempt) * STEP_ASIDE * motion.norm();
+        let matrix = motion + Dense::from_diagonal_element(motion.nrows(), motion.ncols(), by);
+        let schur = Schur::try_new(matrix, f64::EPSILON, MOST_SWEEPS)?;
+        let values = schur.complex_eigenvalues().iter().map(|value| value - by).collect();
+        Some((values, motion.norm() + by))
+    };
+    let found: Option<(Vec<Complex<f64>>, f64)> = (0..ATTEMPTS).find_map(moved);
+    let (values, size) = found.ok_or(AnalysisError::NoDecomposition)?;
     let errors: Vec<f64> = values.iter().map(|value| error(motion, *value, size)).collect();
     let mut all: Vec<Eigenvalue> = (0..values.len())
         .map(|k| {
