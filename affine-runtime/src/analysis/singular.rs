@@ -54,10 +54,15 @@ fn turn<T: ComplexField<RealField = f64>>(
     columns: &DMatrix<T>,
     (p, q): (usize, usize),
 ) -> Option<(f64, f64, T)> {
-    let [first, second] = [p, q].map(|k| columns.column(k));
-    let (product, squares) = (first.dotc(&second), [first.norm_squared(), second.norm_squared()]);
+    let (rows, all) = (columns.nrows(), columns.as_slice());
+    let (mut product, mut squares) = (T::zero(), [0.0; 2]);
+    for (first, second) in all[p * rows..][..rows].iter().zip(&all[q * rows..][..rows]) {
+        product += first.clone().conjugate() * second.clone();
+        squares[0] += first.clone().modulus_squared();
+        squares[1] += second.clone().modulus_squared();
+    }
     let size = product.clone().modulus();
-    let rounding = f64::EPSILON * (columns.nrows() as f64).sqrt();
+    let rounding = f64::EPSILON * (rows as f64).sqrt();
     if size <= rounding * squares[0].sqrt() * squares[1].sqrt() {
         return None;
     }
@@ -72,10 +77,12 @@ fn rotate<T: ComplexField<RealField = f64>>(
     (p, q): (usize, usize),
     (cosine, sine, phase): &(f64, f64, T),
 ) {
-    for row in 0..matrix.nrows() {
-        let (first, second) = (matrix[(row, p)].clone(), matrix[(row, q)].clone() * phase.clone());
-        matrix[(row, p)] = first.clone().scale(*cosine) - second.clone().scale(*sine);
-        matrix[(row, q)] = first.scale(*sine) + second.scale(*cosine);
+    let rows = matrix.nrows();
+    let (before, after) = matrix.as_mut_slice().split_at_mut(q * rows);
+    for (first, second) in before[p * rows..][..rows].iter_mut().zip(&mut after[..rows]) {
+        let (x, y) = (first.clone(), second.clone() * phase.clone());
+        *first = x.clone().scale(*cosine) - y.clone().scale(*sine);
+        *second = x.scale(*sine) + y.scale(*cosine);
     }
 }
 
