@@ -86,24 +86,23 @@ fn rotate<T: ComplexField<RealField = f64>>(
     }
 }
 
-/// A column of zeros becomes a unit vector that is orthogonal to all others that are none.
+/// A column of zeros becomes a unit vector that is orthogonal to all others that are none: what they leave of the axis that they
+/// contain least of.
 fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize, rows: usize) {
     let others: Vec<DVector<T>> =
         columns.column_iter().filter(|column| column.norm() > 0.0).map(|column| column.normalize()).collect();
-    let rest = |axis: usize| {
-        let mut rest = DVector::<T>::zeros(rows);
-        rest[axis] = T::one();
-        // Twice is enough.
-        for other in others.iter().chain(&others) {
-            let part = other.dotc(&rest);
-            rest -= other * part;
-        }
-        rest
-    };
-    let longest = (0..rows).map(rest).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    if let Some(longest) = longest.filter(|longest| longest.norm() > 0.0) {
-        columns.set_column(k, &longest.normalize());
+    let contained =
+        |axis: usize| others.iter().map(|other| other[axis].clone().modulus_squared()).sum::<f64>();
+    let contained: Vec<f64> = (0..rows).map(contained).collect();
+    let Some(axis) = (0..rows).min_by(|a, b| contained[*a].total_cmp(&contained[*b])) else { return };
+    let mut rest = DVector::<T>::zeros(rows);
+    rest[axis] = T::one();
+    // Twice is enough.
+    for other in others.iter().chain(&others) {
+        let part = other.dotc(&rest);
+        rest -= other * part;
     }
+    columns.set_column(k, &rest.normalize());
 }
 
 #[cfg(test)]
