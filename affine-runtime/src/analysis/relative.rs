@@ -68,7 +68,7 @@ impl<const N: usize, P> RelativeEquilibrium<N, P> {
     }
 }
 
-/// A point of rest near a guess, `X_H = 0`: the nearest one to rounding, where symmetries make families of them.
+/// A point of rest near a guess, `X_H = 0`: one near it, where symmetries make families of them.
 ///
 /// ```
 /// use affine_runtime::analysis::equilibrium;
