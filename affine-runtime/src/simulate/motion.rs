@@ -105,7 +105,7 @@ impl<const N: usize, M: Model<N>> Handle<N> for Followed<'_, M> {
     }
 }
 
-/// Where it is: short runs would take a tenth longer with one that is put elsewhere.
+/// It is followed where it is: a box takes one of seventeen instructions of a run of one step.
 impl<'a, const N: usize, M: Model<N>> Purpose<'a, N> for Followed<'a, M> {
     type Then<'t>
         = &'t mut Follow<'t, M::Point<f64>>
