@@ -13,6 +13,8 @@ mod far_away;
 mod listed;
 #[path = "domain/singular.rs"]
 mod singular;
+#[path = "domain/small.rs"]
+mod small;
 #[path = "domain/stretched.rs"]
 mod stretched;
 #[path = "domain/time.rs"]

@@ -25,6 +25,15 @@ models! { 3, kinetic(casimir2 = 0.2, casimir1_squared = 0.1, body_inertia = 1):
     Logarithm3 = ln(tr(G)) - 2*q;
     Places3 = exp(-1*q1) + exp(-1*q2) + exp(-1*q3);
     Quotient3 = tr(G^2)/tr(G)^2;
+    Trace3 = tr(G);
+    Square3OfTrace = tr(G)^2;
+    Cubes3 = tr(G^3);
+    Deviator3 = tr((G - tr(G)/n)^2);
+}
+
+models! { 2, kinetic(dalembert = 0.8):
+    DalembertSquare2 = tr(G)^2;
+    DalembertDeviator2 = tr((G - tr(G)/n)^2);
 }
 
 models! { 3, kinetic(dalembert = 0.8):
@@ -84,4 +93,31 @@ fn energies_keep_their_digits_far_away() {
     assert_energy(&DalembertShear3, unit_trace);
     assert_energy(&Inverse2, |mean, _| (-2.0 * mean).exp());
     assert_energy(&Shear2, |mean, q| unit_trace(mean, q) - 2.0);
+}
+
+/// Relative to the energy itself, which is a power of the size.
+fn assert_small<const N: usize, M: TwoPolarForm<N>>(
+    model: &M,
+    degree: f64,
+    exact: impl Fn(&Vector<N>) -> f64,
+) {
+    for mean in [-20.0, -8.0, -3.0, -1.0, -0.3, 0.0, 1.0, 8.0, 20.0] {
+        let lattice = at_rest::<N>(mean);
+        let exact = (degree * mean).exp() * exact(&(lattice.q.map(|q| (2.0 * (q - mean)).exp())));
+        let (couplings, places) = lattice.places::<M>();
+        let found = model.lattice_hamiltonian(&couplings, &places);
+        let error = (found / exact - 1.0).abs();
+        assert!(error <= RELATIVE, "{} at {mean}: {found:e} is not {exact:e}", M::DESCRIPTION.name);
+    }
+}
+
+/// Polynomials in the squares of the stretches.
+#[test]
+fn polynomials_keep_their_digits_in_small_bodies() {
+    assert_small(&Trace3, 2.0, |squares| squares.sum());
+    assert_small(&Square3OfTrace, 4.0, |squares| squares.sum().powi(2));
+    assert_small(&Cubes3, 6.0, |squares| squares.map(|square| square.powi(3)).sum());
+    assert_small(&Deviator3, 4.0, |squares| squares.map(|square| (square - squares.mean()).powi(2)).sum());
+    assert_small(&DalembertSquare2, 4.0, |squares| squares.sum().powi(2));
+    assert_small(&DalembertDeviator2, 4.0, |squares| (squares[0] - squares[1]).powi(2) / 2.0);
 }

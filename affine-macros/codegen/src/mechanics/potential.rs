@@ -7,6 +7,7 @@ mod assembly;
 mod at_a_point;
 mod axes;
 mod base;
+mod counting;
 mod dilatation;
 mod domain;
 mod excess;

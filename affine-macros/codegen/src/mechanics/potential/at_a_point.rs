@@ -1,5 +1,5 @@
 //! The value of a potential at a point, without cancellation near the undeformed state; and far from it, through `D` and the
-//! isochoric part of the placement.
+//! isochoric part of the placement, or as it is written.
 
 use std::iter::once;
 
@@ -14,7 +14,8 @@ use crate::symbol::Quantity;
 
 use super::Potential;
 use super::base::Base;
-use super::rewriting::{about_undeformed, exponential_of_dilatation, multiple_of_logarithm};
+use super::counting::{Counting, Forms};
+use super::rewriting::{exponential_of_dilatation, multiple_of_logarithm};
 use super::scaled::{self, collected, scaled_bases};
 use super::sums::{Sizes, Sums};
 use super::tensors::{definitions, green, own};
@@ -24,8 +25,8 @@ const MOST_TERMS: u32 = 256;
 
 impl Potential {
     /// `U` for evaluation at a point, with what it shares; `q` is an input. Near the undeformed state nothing
-    /// cancels to first order: `exp(c q) = 1 + 2 sinh(c q/2)^2 + sinh(c q)`, `cosh` likewise, and the traces are
-    /// counted from `n`, so that the constants go away exactly.
+    /// cancels to first order: `exp(c q) = 1 + 2 sinh(c q/2)^2 + sinh(c q)`, `cosh` likewise, and where numbers cancel the
+    /// traces are counted from `n`, so that they go away exactly.
     pub fn energy_at_a_point(&self, arena: &mut Arena, chart: &Chart) -> (Polynomial, Definitions) {
         let (mut values, shared) = self.at_a_point(arena, chart, &[self.energy]);
         (never_missing(values.pop(), "one function has one value", Polynomial::zero()), shared)
@@ -44,8 +45,11 @@ impl Potential {
     /// `U` for evaluation far from the undeformed state, with what it shares; `q`, `q_a` and `D` are inputs. `None` where
     /// [`energy_at_a_point`](Self::energy_at_a_point) is as good there.
     pub fn energy_far_away(&self, arena: &mut Arena, chart: &Chart) -> Option<(Polynomial, Definitions)> {
-        let (value, sums) = self.far_away(arena, self.energy)?;
-        Some((value, with_unit_part(arena, chart, sums)))
+        if let Some((value, sums)) = self.far_away(arena, self.energy) {
+            return Some((value, with_unit_part(arena, chart, sums)));
+        }
+        let (mut values, shared) = self.in_small_bodies(arena, chart, &[self.energy])?;
+        Some((values.pop()?, shared))
     }
 
     /// The same for the functions of the domain: of each the sign matters, as that of a divisor.
@@ -59,10 +63,11 @@ impl Potential {
             let divided = arena.reciprocal(guard.value);
             differs_far_away(arena, divided)
         });
+        let values: Vec<Expr> = self.domain.iter().map(|guard| guard.value).collect();
         if !differs {
-            return None;
+            return self.in_small_bodies(arena, chart, &values);
         }
-        let (values, sums) = self.through_unit_part(arena, self.domain.iter().map(|guard| guard.value))?;
+        let (values, sums) = self.through_unit_part(arena, values.into_iter())?;
         Some((values, with_unit_part(arena, chart, sums)))
     }
 
@@ -111,30 +116,43 @@ impl Potential {
         chart: &Chart,
         values: &[Expr],
     ) -> (Vec<Polynomial>, Definitions) {
-        let mut sums = Sums::default();
-        let named: Vec<Expr> = values
-            .iter()
-            .map(|value| {
-                let shifted = about_undeformed(arena, *value);
-                sums.named(arena, shifted)
-            })
-            .collect();
-        let n = Rational::whole(self.dim);
+        let counting = traces_counted(arena, self.dim);
+        let Forms { values, sums } = Forms::new(arena, values).counted(arena, &counting);
         let mut shared = definitions(arena, &chart.placement(), own(chart), false);
         let (excesses, strains) = strain_traces(arena, chart);
         shared.extend(excesses);
-        let mut moved = Vec::new();
-        for (power, strain) in [1, 2].into_iter().zip(strains) {
-            let excess = arena.symbol(Quantity::Strain.at([power]));
-            shared.push((excess, strain));
-            let value = Polynomial::atom(excess).add(&Polynomial::constant(n.clone()));
-            moved.push((Base::Trace(power).symbol(arena), value));
-        }
-        let forms = sums.forms(arena).into_iter();
-        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&moved)))));
-        let values = named.into_iter().map(|value| Polynomial::normal_form(arena, value));
-        (values.map(|form| form.substitute(&listed(&moved))).collect(), shared)
+        let symbols = [1, 2].map(|power| arena.symbol(Quantity::Strain.at([power])));
+        shared.extend(symbols.into_iter().zip(strains));
+        shared.extend(sums);
+        (values, shared)
     }
+
+    /// The same with no trace counted from `n`; `None` where that has no more digits in small bodies.
+    fn in_small_bodies(
+        &self,
+        arena: &mut Arena,
+        chart: &Chart,
+        values: &[Expr],
+    ) -> Option<(Vec<Polynomial>, Definitions)> {
+        let counting = traces_counted(arena, self.dim);
+        let forms = Forms::new(arena, values);
+        if !forms.lose_small(arena, &counting) {
+            return None;
+        }
+        let tensors = definitions(arena, &chart.placement(), own(chart), false);
+        Some((forms.values, [tensors, forms.sums].concat()))
+    }
+}
+
+/// `tr G` and `tr G^2`, counted from `n`: `-n` is what their differences are where the body vanishes.
+fn traces_counted(arena: &mut Arena, dim: usize) -> Counting {
+    let n = Rational::whole(dim);
+    let moved = [1, 2].map(|power| {
+        let excess = arena.symbol(Quantity::Strain.at([power]));
+        let value = Polynomial::atom(excess).add(&Polynomial::constant(n.clone()));
+        (Base::Trace(power).symbol(arena), value)
+    });
+    Counting::new(arena, dim, moved.into(), &-&n)
 }
 
 /// `tr G - n` and `tr G^2 - n` without cancellation near `phi = 1`: with `H = phi - 1`, a difference without rounding

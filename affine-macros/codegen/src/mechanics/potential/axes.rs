@@ -1,7 +1,6 @@
 //! Isotropic potentials on the principal axes: `phi = L D R^T` has the potential of `D`.
 
 use crate::algebra::ring::pairs;
-use crate::algebra::substitute::listed;
 use crate::algebra::{Arena, Expr, Function, Polynomial, Rational};
 use crate::mechanics::metric::Definitions;
 use crate::mechanics::symmetry::Side;
@@ -10,7 +9,8 @@ use crate::symbol::Quantity;
 
 use super::Potential;
 use super::base::Base;
-use super::rewriting::{about_undeformed, through_dilatation};
+use super::counting::{Counting, Forms};
+use super::rewriting::through_dilatation;
 use super::sums::Sums;
 
 /// A potential as a function of the places of a lattice.
@@ -80,23 +80,21 @@ impl Potential {
         let definitions = definitions(arena, lattice, &stretches);
         axes.shared.extend(definitions.iter().cloned());
         let written = diagonal(arena, self.energy);
-        let energy = about_undeformed(arena, written);
         let mut shared = Vec::new();
-        let counted = counted_from_undeformed(arena, lattice, &mut shared);
-        let mut sums = Sums::default();
-        let energy = sums.named(arena, energy);
-        let energy = Polynomial::normal_form(arena, energy).substitute(&listed(&counted));
-        let forms = sums.forms(arena).into_iter();
-        shared.extend(forms.map(|(symbol, form)| (symbol, form.substitute(&listed(&counted)))));
-        shared.extend(definitions.iter().cloned());
-        axes.energy = (energy, shared);
+        let counting = counted_from_undeformed(arena, lattice, &mut shared);
+        let energy = Forms::new(arena, &[written]);
+        let near = energy.counted(arena, &counting);
+        axes.energy = (near.values.iter().sum(), [shared, near.sums, definitions.clone()].concat());
         // Angles have no volume to be far away by.
-        let is_on_line = lattice.variables != Variables::Angles;
-        let far_away = if is_on_line { self.far_away(arena, written) } else { None };
-        axes.energy_far_away = far_away.map(|(value, sums)| {
+        if lattice.variables == Variables::Angles {
+            return axes;
+        }
+        if let Some((value, sums)) = self.far_away(arena, written) {
             let unit = unit_definitions(arena, &stretches);
-            (value, [unit, sums, definitions].concat())
-        });
+            axes.energy_far_away = Some((value, [unit, sums, definitions].concat()));
+        } else if energy.lose_small(arena, &counting) {
+            axes.energy_far_away = Some((energy.values.iter().sum(), [definitions, energy.sums].concat()));
+        }
         axes
     }
 }
@@ -209,7 +207,7 @@ fn unit_definitions(arena: &mut Arena, stretches: &[Expr]) -> Definitions {
 }
 
 /// `tr G^k = sum (1 + f_a)^k` multiplied out, with `f_a = Q_a^2 - 1` free of cancellation near `Q_a = 1`.
-fn counted_from_undeformed(arena: &mut Arena, lattice: &Lattice, shared: &mut Definitions) -> Definitions {
+fn counted_from_undeformed(arena: &mut Arena, lattice: &Lattice, shared: &mut Definitions) -> Counting {
     let (mut list, mut squares) = (Vec::new(), Vec::new());
     for (a, place) in lattice.q.iter().enumerate() {
         let strain = arena.symbol(Quantity::Strain.at([a + 1]));
@@ -237,7 +235,7 @@ fn counted_from_undeformed(arena: &mut Arena, lattice: &Lattice, shared: &mut De
         squares.push(square);
     }
     list.extend(traces(arena, Base::symbol, &squares));
-    list
+    Counting::new(arena, lattice.dim, list, &Rational::MINUS_ONE)
 }
 
 /// `tr G^k`, the sums of powers of these `Q_a^2`, by their names.
