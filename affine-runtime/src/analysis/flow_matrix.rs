@@ -234,8 +234,7 @@ impl Sensitivities {
 /// The inverse of how places and velocities depend on the plain array, as far as there is one. Velocities are small in heavy bodies,
 /// and none the less.
 fn inverse(mut matrix: DMatrix<f64>, places: usize) -> Result<DMatrix<f64>, AnalysisError> {
-    let size = matrix.rows(places, places).norm();
-    let unit = if size > 0.0 { size } else { 1.0 };
+    let unit = matrix.rows(places, places).norm().max(f64::MIN_POSITIVE);
     matrix.rows_mut(places, places).unscale_mut(unit);
     let svd = decomposed(matrix).ok_or(AnalysisError::NoDecomposition)?;
     let none = RANK * svd.singular_values.max();

@@ -17,16 +17,14 @@ pub(super) fn singular<T: ComplexField<RealField = f64>>(matrix: DMatrix<T>) -> 
 }
 
 fn of_columns<T: ComplexField<RealField = f64>>(mut columns: DMatrix<T>) -> SVD<T, Dyn, Dyn> {
-    let (rows, count, size) = (columns.nrows(), columns.ncols(), columns.camax());
-    let unit = if size > 0.0 { size } else { 1.0 };
+    let (count, unit) = (columns.ncols(), columns.camax().max(f64::MIN_POSITIVE));
     columns.unscale_mut(unit);
     let mut turned = DMatrix::<T>::identity(count, count);
     for _ in 0..MOST_SWEEPS {
         let mut are_orthogonal = true;
         for (p, q) in (0..count).flat_map(|p| (p + 1..count).map(move |q| (p, q))) {
             if let Some(turn) = turn(&columns, (p, q)) {
-                rotate(&mut columns, (p, q), &turn);
-                rotate(&mut turned, (p, q), &turn);
+                [&mut columns, &mut turned].into_iter().for_each(|matrix| rotate(matrix, (p, q), &turn));
                 are_orthogonal = false;
             }
         }
@@ -42,18 +40,20 @@ fn of_columns<T: ComplexField<RealField = f64>>(mut columns: DMatrix<T>) -> SVD<
     for k in 0..count {
         match lengths[k] > 0.0 {
             true => columns.column_mut(k).unscale_mut(lengths[k]),
-            false => complete(&mut columns, k, rows),
+            false => complete(&mut columns, k),
         }
     }
     let singular_values = DVector::from_iterator(count, lengths.iter().map(|length| length * unit));
     SVD { u: Some(columns), v_t: Some(turned.adjoint()), singular_values }
 }
 
-/// Cosine and sine of the angle that makes two columns orthogonal, and the phase between them; none where they are.
-fn turn<T: ComplexField<RealField = f64>>(
-    columns: &DMatrix<T>,
-    (p, q): (usize, usize),
-) -> Option<(f64, f64, T)> {
+/// Two columns, the first before the second.
+type Pair = (usize, usize);
+/// Cosine and sine of the angle by which two columns are turned, and the phase of the second.
+type Turn<T> = (f64, f64, T);
+
+/// What makes two columns orthogonal; none where they are.
+fn turn<T: ComplexField<RealField = f64>>(columns: &DMatrix<T>, (p, q): Pair) -> Option<Turn<T>> {
     let (rows, all) = (columns.nrows(), columns.as_slice());
     let (mut product, mut squares) = (T::zero(), [0.0; 2]);
     for (first, second) in all[p * rows..][..rows].iter().zip(&all[q * rows..][..rows]) {
@@ -72,11 +72,8 @@ fn turn<T: ComplexField<RealField = f64>>(
     Some((cosine, cosine * tangent, product.unscale(size).conjugate()))
 }
 
-fn rotate<T: ComplexField<RealField = f64>>(
-    matrix: &mut DMatrix<T>,
-    (p, q): (usize, usize),
-    (cosine, sine, phase): &(f64, f64, T),
-) {
+fn rotate<T: ComplexField<RealField = f64>>(matrix: &mut DMatrix<T>, (p, q): Pair, by: &Turn<T>) {
+    let (cosine, sine, phase) = by;
     let rows = matrix.nrows();
     let (before, after) = matrix.as_mut_slice().split_at_mut(q * rows);
     for (first, second) in before[p * rows..][..rows].iter_mut().zip(&mut after[..rows]) {
@@ -88,13 +85,12 @@ fn rotate<T: ComplexField<RealField = f64>>(
 
 /// A column of zeros becomes a unit vector that is orthogonal to all others that are none: what they leave of the axis that they
 /// contain least of.
-fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize, rows: usize) {
-    let others: Vec<DVector<T>> =
-        columns.column_iter().filter(|column| column.norm() > 0.0).map(|column| column.normalize()).collect();
+fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize) {
+    let (rows, others) = (columns.nrows(), columns.column_iter().filter(|column| column.norm() > 0.0));
+    let others: Vec<DVector<T>> = others.map(|column| column.normalize()).collect();
     let contained =
-        |axis: usize| others.iter().map(|other| other[axis].clone().modulus_squared()).sum::<f64>();
-    let contained: Vec<f64> = (0..rows).map(contained).collect();
-    let Some(axis) = (0..rows).min_by(|a, b| contained[*a].total_cmp(&contained[*b])) else { return };
+        |axis: &usize| -> f64 { others.iter().map(|other| other[*axis].clone().modulus_squared()).sum() };
+    let Some(axis) = (0..rows).min_by(|a, b| contained(a).total_cmp(&contained(b))) else { return };
     let mut rest = DVector::<T>::zeros(rows);
     rest[axis] = T::one();
     // Twice is enough.
