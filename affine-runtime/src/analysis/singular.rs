@@ -83,8 +83,8 @@ fn rotate<T: ComplexField<RealField = f64>>(matrix: &mut DMatrix<T>, (p, q): Pai
     }
 }
 
-/// A column of zeros becomes a unit vector that is orthogonal to all others that are none: what they leave of the axis that they
-/// contain least of.
+/// Replaces a column of zeros by a unit vector that is orthogonal to all other columns but those of zeros: what these leave of one axis,
+/// that of which they contain least.
 fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize) {
     let (rows, others) = (columns.nrows(), columns.column_iter().filter(|column| column.norm() > 0.0));
     let others: Vec<DVector<T>> = others.map(|column| column.normalize()).collect();
@@ -93,7 +93,7 @@ fn complete<T: ComplexField<RealField = f64>>(columns: &mut DMatrix<T>, k: usize
     let Some(axis) = (0..rows).min_by(|a, b| contained(a).total_cmp(&contained(b))) else { return };
     let mut rest = DVector::<T>::zeros(rows);
     rest[axis] = T::one();
-    // Twice is enough.
+    // The second time takes away what rounding has left of the others.
     for other in others.iter().chain(&others) {
         let part = other.dotc(&rest);
         rest -= other * part;

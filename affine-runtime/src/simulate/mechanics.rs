@@ -3,7 +3,7 @@
 use super::course::{Choice, Course};
 use super::cubic::{Knot, on_cubic};
 use super::friction::rate_of_friction;
-use super::motion::{Begin, Follow, Purpose};
+use super::motion::{Begin, Follow, Followed, Goal, Purpose};
 use super::stiffness::would_pass_over;
 use crate::error::Reason;
 use crate::frames::Matrix;
@@ -40,6 +40,10 @@ pub(super) trait Mechanics<const N: usize, P> {
     fn collapse(&self, geodesic: &Geodesic<N>, t_end: f64, start: &Matrix<N>) -> Option<f64>;
     /// Energy and equations of motion at a point, number by number.
     fn witness(&self, t: f64, point: &P, each: &mut dyn FnMut(f64));
+}
+
+/// What a run asks besides: the motion, followed to one end.
+pub(super) trait Moves<const N: usize, P>: Mechanics<N, P> {
     /// Begins to integrate, by the method that is chosen, and follows the motion.
     fn follow(
         &self,
@@ -115,12 +119,17 @@ impl<'a, const N: usize, M: Model<N>, H: Purpose<'a, N, Model = M>> Mechanics<N,
         let rates = self.handle.model().reduced_equations(t, &constants, &reduced);
         rates.as_ref().iter().for_each(|rate| each(*rate));
     }
+}
+
+impl<'a, const N: usize, M: Model<N>> Moves<N, M::Point<f64>> for Moving<'a, N, Followed<'a, M>> {
     fn follow(
         &self,
         course: &Course<'_, M::Point<f64>>,
         choice: &mut Choice,
         then: &mut Follow<'_, M::Point<f64>>,
     ) -> Result<(), Reason> {
-        self.handle.follow(self.begin, course, choice, then)
+        let then: &mut Follow<'_, M::Point<f64>> = &mut |motion, choice| then(motion, choice);
+        let goal = Goal { choice, then };
+        (self.begin)(&self.handle, course, goal)
     }
 }

@@ -65,14 +65,6 @@ pub(super) trait Purpose<'a, const N: usize>: Handle<N> + 'a {
         motion: impl Engine<N, Self> + 'a,
         goal: Goal<'_, 'a, N, Self>,
     ) -> Result<Self::Launched, Reason>;
-    /// Begins a course and follows it.
-    fn follow(
-        &self,
-        begin: Begin<'a, N, Self>,
-        course: &Course<'_, PointOf<N, Self>>,
-        choice: &mut Choice,
-        then: &mut Follow<'_, PointOf<N, Self>>,
-    ) -> Result<(), Reason>;
 }
 
 /// What a motion is begun for, and what is known of its choice.
@@ -115,15 +107,6 @@ impl<'a, const N: usize, M: Model<N>> Purpose<'a, N> for Followed<'a, M> {
     fn launched(mut motion: impl Engine<N, Self> + 'a, goal: Goal<'_, 'a, N, Self>) -> Result<(), Reason> {
         (goal.then)(&mut motion, goal.choice)
     }
-    fn follow(
-        &self,
-        begin: Begin<'a, N, Self>,
-        course: &Course<'_, M::Point<f64>>,
-        choice: &mut Choice,
-        then: &mut Follow<'_, M::Point<f64>>,
-    ) -> Result<(), Reason> {
-        begin(self, course, Goal { choice, then: &mut |motion, choice| then(motion, choice) })
-    }
 }
 
 /// A model whose motion goes on from end to end.
@@ -149,16 +132,6 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Purpose<'a, N> for Stepping<H> {
         _: Goal<'_, 'a, N, Self>,
     ) -> Result<Self::Launched, Reason> {
         Ok(Box::new(motion))
-    }
-    fn follow(
-        &self,
-        begin: Begin<'a, N, Self>,
-        course: &Course<'_, PointOf<N, Self>>,
-        choice: &mut Choice,
-        then: &mut Follow<'_, PointOf<N, Self>>,
-    ) -> Result<(), Reason> {
-        let mut motion = begin(self, course, Goal { choice, then: () })?;
-        then(&mut *motion, choice)
     }
 }
 

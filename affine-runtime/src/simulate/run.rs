@@ -7,7 +7,7 @@ use super::distortion::distinctness;
 use super::energy::Energy;
 use super::fingerprint::fingerprint;
 use super::layout::total;
-use super::mechanics::Mechanics;
+use super::mechanics::{Mechanics, Moves};
 use super::method::Method;
 use super::outcome::{Halt, Outcome};
 use super::point::{check, check_constraint};
@@ -62,7 +62,7 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
 
 /// A run of a model that is only known by its phase points.
 pub(super) struct Run<'a, const N: usize, P> {
-    pub(super) model: &'a dyn Mechanics<N, P>,
+    pub(super) model: &'a dyn Moves<N, P>,
     pub(super) settings: Settings<'a, N, P>,
 }
 

@@ -51,7 +51,7 @@ impl<'a, 'p, const N: usize, T: Lanes, M: InLanes<N>> Waiting<'a, 'p, N, T, M> {
         }
     }
 
-    /// The next body.
+    /// The next body that begins in lanes.
     pub(super) fn next(&mut self) -> Option<Begun<'_, 'a, N, M>> {
         let place = loop {
             match self.starts.get(self.taken) {

@@ -62,7 +62,7 @@ pub(super) struct Counting {
     vanished: Numbers,
 }
 
-/// Numbers for symbols.
+/// The number that each of some symbols stands for.
 type Numbers = FxHashMap<Expr, Rational>;
 
 impl Counting {
