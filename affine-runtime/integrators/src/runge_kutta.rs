@@ -195,9 +195,9 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
     #[inline(always)]
-    fn error(&self, vectors: impl Vectors, reached: &S, tolerance: f64) -> f64 {
+    fn error(&self, vectors: impl Vectors, (rise, reached): (&L, &S), tolerance: f64) -> f64 {
         let stages = self.field.stages(vectors, self.coordinates, &self.begin);
-        let (first, second) = self.step.error_slopes(&stages);
+        let (first, second) = P::error_slopes(&self.step, &stages, rise);
         // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
         let first = self.coordinates.change(&self.begin, &self.field.read(&first));
         let second = self.coordinates.change(&self.begin, &self.field.read(&second));
@@ -270,12 +270,12 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
     #[inline(always)]
     fn attempt(&mut self, vectors: impl Vectors, end: f64, control: &mut Control) -> Option<(Sum<S>, f64)> {
         control.statistics.evaluations += P::EVALUATIONS + u64::from(P::NEEDS_END);
-        self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
+        let rise = self.step.attempt_in(&self.field.stages(vectors, self.coordinates, &self.begin), end);
         let reached = self.coordinates.state(&self.begin, &self.field.read(self.step.trial_end()));
         if P::NEEDS_END {
             self.slope_at(vectors, end, &reached.value);
         }
-        let error = self.error(vectors, &reached.value, control.tolerance);
+        let error = self.error(vectors, (&rise, &reached.value), control.tolerance);
         if !P::NEEDS_END && error <= 1.0 {
             control.statistics.evaluations += 1;
             self.slope_at(vectors, end, &reached.value);

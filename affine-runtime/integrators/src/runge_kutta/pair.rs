@@ -4,7 +4,6 @@ use super::field::Stages;
 use super::judged::Judged;
 use super::step::{OneStep, Pair};
 use super::{dormand_prince_54 as dp54, dormand_prince_853 as dp853};
-use crate::stages::difference;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 
@@ -14,9 +13,6 @@ pub struct DormandPrince853;
 
 /// A step of the method of order 8.
 pub type Step<S> = OneStep<DormandPrince853, S>;
-
-/// Solution less the embedded solution of order 3.
-pub(super) const E3: [(usize, f64); dp853::B.len()] = difference(dp853::B, &dp853::B3);
 
 impl Pair for DormandPrince853 {
     const NAME: &'static str = "RungeKutta8";
@@ -53,13 +49,14 @@ impl Pair for DormandPrince853 {
     }
 
     #[inline(always)]
-    fn end<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S {
-        step.end_at(f, &dp853::B)
+    fn rise<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S {
+        step.combination(f, &dp853::B)
     }
 
     #[inline(always)]
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S) {
-        (step.combination(f, &dp853::E5), step.combination(f, &E3))
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>, rise: &S) -> (S, S) {
+        let third = f.plus_multiple(rise, -1.0, &step.combination(f, &dp853::B3));
+        (step.combination(f, &dp853::E5), third)
     }
 
     #[inline(always)]
@@ -117,12 +114,12 @@ impl Pair for DormandPrince54 {
     }
 
     #[inline(always)]
-    fn end<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S {
-        step.end_at(f, &dp54::B)
+    fn rise<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S {
+        step.combination(f, &dp54::B)
     }
 
     #[inline(always)]
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S) {
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>, _rise: &S) -> (S, S) {
         (step.combination(f, &dp54::E), S::zeros())
     }
 

@@ -33,11 +33,11 @@ pub trait Pair: Sized {
     fn place<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>, stage: usize, newest: &S)
     -> S;
 
-    /// The end of the step.
-    fn end<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S;
+    /// What the solution rises by in the step, divided by `h`.
+    fn rise<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> S;
 
-    /// Differences, divided by `h`, of the solution to the embedded ones.
-    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>) -> (S, S);
+    /// Differences, divided by `h`, of this to the rises of the embedded solutions.
+    fn error_slopes<S: StateVector<f64>>(step: &OneStep<Self, S>, f: &impl Stages<S>, rise: &S) -> (S, S);
 
     /// The error estimate from the squares of the sizes of these.
     fn error(squares: (f64, f64)) -> f64;
@@ -82,9 +82,9 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
         self.attempt_in(f, end);
     }
 
-    /// The same, with sums of its own.
+    /// The same, with sums of its own: what the step rises by, divided by `h`.
     #[inline(always)]
-    pub(super) fn attempt_in(&mut self, f: &impl Stages<S>, end: f64) {
+    pub(super) fn attempt_in(&mut self, f: &impl Stages<S>, end: f64) -> S {
         self.t_trial = end;
         self.accepted = false;
         // One after the other in a loop, where the equations stand once, and in the caches once. The newest slope goes
@@ -95,7 +95,10 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
             newest = f.slope(self.time_at(*node), &place);
             self.stages[number - 1] = newest;
         }
-        self.y_trial = P::end(self, f);
+        let rise = P::rise(self, f);
+        // Rounded once.
+        self.y_trial = f.plus_multiple(&self.y, self.length(), &rise);
+        rise
     }
 
     /// Accepts the step: evaluates the slope at its end. One evaluation.
@@ -199,12 +202,6 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
         self.t_trial - self.t
     }
 
-    /// Differences, divided by `h`, of the solution to the embedded ones.
-    #[inline(always)]
-    pub(super) fn error_slopes(&self, f: &impl Stages<S>) -> (S, S) {
-        P::error_slopes(self, f)
-    }
-
     /// `k_s = f(t + c_s h, y + h sum_j a_sj k_j)`, by stage and node.
     #[inline(always)]
     pub(super) fn stage<const TERMS: usize>(
@@ -232,16 +229,6 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
     #[inline(always)]
     fn time_at(&self, node: f64) -> f64 {
         if node == 1.0 { self.t_trial } else { self.t + node * self.length() }
-    }
-
-    /// The end of the step by its weights, rounded once.
-    #[inline(always)]
-    pub(super) fn end_at<const TERMS: usize>(
-        &self,
-        f: &impl Stages<S>,
-        weights: &[(usize, f64); TERMS],
-    ) -> S {
-        f.plus_multiple(&self.y, self.length(), &self.combination(f, weights))
     }
 
     /// `sum_j a_j k_j`.

@@ -9,8 +9,7 @@ use crate::error_norm::{GROUPS, Measured, Squares, are_in_range, has_size, measu
 use crate::lanes::Lanes;
 use crate::lanes::equations::Equations;
 use crate::lanes::parts::{part, parts, plus, set_part};
-use crate::runge_kutta::dormand_prince_853::{B, E5};
-use crate::runge_kutta::pair::E3;
+use crate::runge_kutta::dormand_prince_853::{B, B3, E5};
 use affine_core::model::StateVector;
 
 /// Sums over a group: of squares of errors of orders 5 and 3 and of components before and after the step, and of sizes of
@@ -83,7 +82,7 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> Attempt<'_, T, S, F> {
     fn component<V: Simd>(&mut self, simd: V, i: usize, k: usize) -> [V::f64s; 4] {
         let slope = combination(simd, self.stages, (i, k), &B, B.len());
         let fifth = combination(simd, self.stages, (i, k), &E5, E5.len());
-        let third = combination(simd, self.stages, (i, k), &E3, E3.len());
+        let third = simd.sub_f64s(slope, combination(simd, self.stages, (i, k), &B3, B3.len()));
         let before = part(simd, &self.y.as_ref()[i], k);
         let after = plus::<V, T>(simd, slope, part(simd, &self.h, k), before);
         set_part(simd, &mut self.trial.as_mut()[i], k, after);
