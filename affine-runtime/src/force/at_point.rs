@@ -110,8 +110,10 @@ impl<const N: usize, F: PointForce<N>, Q, const POINTS: usize> AtPoint<N, F, Q, 
         let mut sum = Matrix::<N, T>::from_fn(|_, _| T::zero());
         self.each(motion, |force, a, arm| {
             let [left, right] = sides(force, a, arm);
-            for (i, j) in (0..N).flat_map(|i| (0..N).map(move |j| (i, j))) {
-                sum[(i, j)] = sum[(i, j)].plus(left[i], right[j]);
+            for i in 0..N {
+                for j in 0..N {
+                    sum[(i, j)] = sum[(i, j)].plus(left[i], right[j]);
+                }
             }
         });
         sum
@@ -120,7 +122,7 @@ impl<const N: usize, F: PointForce<N>, Q, const POINTS: usize> AtPoint<N, F, Q, 
 
 /// `m a`.
 fn carried<const N: usize, T: Scalar>(m: &Matrix<N, T>, a: &Vector<N, T>) -> Vector<N, T> {
-    Vector::<N, T>::from_fn(|i, _| (0..N).fold(T::zero(), |sum, j| sum.plus(m[(i, j)], a[j])))
+    Vector::<N, T>::from_fn(|i, _| (1..N).fold(m[(i, 0)] * a[0], |sum, j| sum.plus(m[(i, j)], a[j])))
 }
 
 impl<const N: usize, F: PointForce<N>, const POINTS: usize> Force<N> for AtPoint<N, F, Translation, POINTS> {
