@@ -59,11 +59,17 @@ pub(super) fn is_rounding<const N: usize>(determinant: f64, phi: &Matrix<N>, fal
     fall < FALLS && determinant.abs() <= ROUNDED * products(phi) && is_nearly_lost(phi)
 }
 
-/// The reason with what the last good placement tells: where the determinant is [rounding](is_rounding), the body has not collapsed.
+/// The reason with what the last good placement tells: where the determinant is [rounding](is_rounding), or was next to that and
+/// grew, the body has not collapsed.
 pub(super) fn told<const N: usize>(reason: Reason, phi: &Matrix<N>, fall: f64) -> Reason {
     match reason {
         Reason::Placement { determinant, rate: None, t } if is_rounding(determinant, phi, fall) => {
             Reason::Distortion { determinant, t }
+        }
+        Reason::Placement { determinant, rate: None, t }
+            if determinant <= 0.0 && fall < 0.0 && is_nearly_lost(phi) =>
+        {
+            far_apart(phi, t)
         }
         Reason::Event { t, .. } if distinctness(phi) < ROUNDED => far_apart(phi, t),
         other => other,

@@ -9,6 +9,11 @@ use crate::state::Phase;
 
 /// A run ends where the energy is off by so much of the largest `|T| + |U|` met.
 const LOST: f64 = 0.1;
+/// A run that conserves energy ends too where that is off by so much of `|T| + |U|`, both at the start and now, and by more than
+/// the tolerance is worth where these were largest, or by a hundredth of that: after a singularity there is less of them than near
+/// it.
+const SPENT: f64 = 0.5;
+const FAR: f64 = 0.01;
 /// So many tolerances off, the energy is named in what is said of a run.
 const WORTH_NAMING: f64 = 1e4;
 /// No energy ends a run that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
@@ -25,6 +30,8 @@ pub(super) struct Witness {
     before: Option<f64>,
     /// Largest `|T| + |U|` met.
     scale: f64,
+    /// `|T| + |U|` at the start of a motion that conserves energy; infinite for others.
+    first: f64,
     /// Largest `|H - W - before|` met, relative to the scale then, of those that are worth naming.
     worst: f64,
     tolerance: Option<f64>,
@@ -40,7 +47,8 @@ impl Witness {
         tolerance: Option<f64>,
     ) -> Self {
         let before = is_accounted_for(model).then_some(energy.value - work);
-        Self { before, scale: larger(scale, energy.size()), worst: 0.0, tolerance }
+        let first = if is_conserved(model) { energy.size() } else { f64::INFINITY };
+        Self { before, scale: larger(scale, energy.size()), first, worst: 0.0, tolerance }
     }
 
     /// Largest `|T| + |U|` met.
@@ -55,7 +63,10 @@ impl Witness {
 
     /// Is an energy, with the work so far, as near to that of the start as it has to be, however small what it is made of may be?
     pub(super) fn keeps(&self, energy: f64, work: f64) -> bool {
-        let is_near = |before: f64| (energy - work - before).abs() <= self.named() * self.scale;
+        let is_near = |before: f64| {
+            let defect = (energy - work - before).abs();
+            defect <= self.named() * self.scale && !self.is_spent(defect, 0.0)
+        };
         energy.is_finite() && self.before.is_none_or(is_near)
     }
 
@@ -64,11 +75,17 @@ impl Witness {
         self.tolerance.map_or(LOST, |tolerance| LOST.min(WORTH_NAMING * tolerance))
     }
 
+    /// Is the energy off by half of what it is made of, now and at the start, and not because of the tolerance?
+    fn is_spent(&self, defect: f64, now: f64) -> bool {
+        let is_resolved = |tolerance: f64| defect > FAR.min(RESOLVED * tolerance) * self.scale;
+        defect > SPENT * larger(self.first, now) && self.tolerance.is_some_and(is_resolved)
+    }
+
     /// Looks at the energy of a point, with the work so far.
     ///
     /// # Errors
-    /// [`Reason::Energy`] where it is not finite; [`Reason::EnergyLost`] where it is off by a tenth of the scale, and a tolerance
-    /// is to be kept.
+    /// [`Reason::Energy`] where it is not finite; [`Reason::EnergyLost`] where it is off by a tenth of the scale, or by half of what
+    /// there was and is, and a tolerance is to be kept.
     pub(super) fn look<const N: usize, P: Phase<N>>(
         &mut self,
         model: &dyn Mechanics<N, P>,
@@ -82,11 +99,12 @@ impl Witness {
         let Some(before) = self.before else { return Ok(()) };
         self.scale = larger(self.scale, at_point.size());
         let defect = (energy - work - before).abs();
-        if defect <= self.named() * self.scale {
+        let is_spent = self.is_spent(defect, at_point.size());
+        if defect <= self.named() * self.scale && !is_spent {
             return Ok(());
         }
         let is_worth = |reach: f64| defect <= worth(model, (t, point), energy, reach);
-        let is_lost = defect > LOST * self.scale;
+        let is_lost = defect > LOST * self.scale || is_spent;
         let is_allowed =
             is_worth(self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance)));
         if !is_allowed || (is_lost && !is_worth(ROUNDING)) {
@@ -128,8 +146,11 @@ fn worth<const N: usize, P: Phase<N>>(
     largest
 }
 
+fn is_conserved(model: &Description) -> bool {
+    model.conserved.contains(&Conserved::Energy)
+}
+
 /// The energy is conserved, or changes by a work that is integrated with the motion.
 fn is_accounted_for(model: &Description) -> bool {
-    model.conserved.contains(&Conserved::Energy)
-        || model.reduced.iter().any(|group| group.quantity == Quantity::Work)
+    is_conserved(model) || model.reduced.iter().any(|group| group.quantity == Quantity::Work)
 }

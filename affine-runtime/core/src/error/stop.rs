@@ -81,7 +81,8 @@ pub enum Reason {
         /// `|H(t) - H(t0) - W(t)|`.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         defect: f64,
-        /// The largest `|T| + |U|` met; a tenth of it is allowed, or what an error of ten tolerances in the placement is worth.
+        /// The largest `|T| + |U|` met; a tenth of it is allowed, and of a motion that conserves energy half of what it is and was at
+        /// the start, or what an error of ten tolerances in the placement is worth.
         #[cfg_attr(feature = "serde", serde(with = "crate::interned::number"))]
         scale: f64,
         /// The time.
