@@ -11,6 +11,8 @@ use affine_core::scalar::Scalar;
 const TOLD_BY_TERMS: usize = 8;
 /// Terms of a series without gaps are so near a geometric sequence, above or below it.
 const NEARLY_GEOMETRIC: f64 = 50.0;
+/// Terms that are so many times those a third of the series before grow, and are no rounding.
+const GROWN: f64 = 10.0;
 
 /// The quotient of a geometric sequence from 1 to the tolerance at the order.
 pub(super) fn quotient(tolerance: f64, order: usize) -> f64 {
@@ -22,7 +24,8 @@ pub(super) fn quotient(tolerance: f64, order: usize) -> f64 {
 /// The largest of the terms of the third quarter of a series, of the last quarter and of the last two are nearly a geometric
 /// sequence where there is a pole, and fall a little faster where there is none. Of a series with gaps, in which `k - 1` of `k`
 /// terms vanish or nearly so, the last two may be much less than those before let expect. That matters where one of those is
-/// above the geometric sequence that ends at the tolerance: a step is too long then.
+/// above the geometric sequence that ends at the tolerance: a step is too long then. Terms that grow go on growing, however
+/// small they are: on the way to a steep wall, `exp(-1000 x)`, those after the last ones are larger than all before.
 #[inline(always)]
 pub(super) fn hides_terms<S: StateVector<f64>>(
     coefficients: &[S],
@@ -45,7 +48,16 @@ pub(super) fn hides_terms<S: StateVector<f64>>(
     let a = largest(&coefficients[third..last], &weights[third..last]);
     let b = largest(&coefficients[last..last_two], &weights[last..last_two]);
     let c = largest(&coefficients[last_two..], &weights[last_two..]);
-    are_irregular(error_norm, h, coefficients[0].as_ref(), [a.as_ref(), b.as_ref(), c.as_ref()])
+    let (y, terms) = (coefficients[0].as_ref(), [a.as_ref(), b.as_ref(), c.as_ref()]);
+    let growth = (last..=order).fold(1.0 / GROWN, |growth, _| growth * quotient);
+    grow(a.as_ref(), c.as_ref(), growth) || are_irregular(error_norm, h, y, terms)
+}
+
+/// The last terms of a component are [so many times](GROWN) larger than those a third of the series before, the weights of both
+/// aside.
+#[inline(always)]
+fn grow(before: &[f64], last: &[f64], growth: f64) -> bool {
+    before.iter().zip(last).fold(false, |grow, (before, last)| grow | (growth * last > *before))
 }
 
 /// The largest terms are no geometric sequence, and one of those before the last two is above that which ends at the tolerance. A
