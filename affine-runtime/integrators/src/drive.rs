@@ -77,11 +77,12 @@ const ROOM: f64 = 1024.0;
 impl Control {
     pub(crate) fn new(
         (t_end, tolerance): (f64, f64),
-        controller: Controller,
+        mut controller: Controller,
         length: f64,
         evaluations: u64,
     ) -> Self {
         let statistics = Statistics { evaluations, ..Statistics::default() };
+        controller.lasting = length;
         Self { tolerance, controller, length, t_end, statistics, failure: None }
     }
 
@@ -107,6 +108,7 @@ impl Control {
                     method.accept(trial, end, self);
                     self.statistics.steps += 1;
                     self.length = tried * self.controller.accept(error);
+                    self.controller.took(tried);
                     return Ok(());
                 }
                 Some((_, error)) => {

@@ -30,9 +30,9 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 ///   affine maps of space it transforms as the columns of `phi` do;
 /// * `q`, logarithms of stretches, is measured against 1: an error of `q` is a relative error of `exp q`;
 /// * momenta, all groups but these and `phi`, are measured against `|g|` or `0.1 mu_g/h`, whichever is larger,
-///   where `mu_g/h` is the momentum that moves the placement by its own size within a step of length `h`. Without
-///   that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not have, and one
-///   at rest would take ever shorter steps.
+///   where `mu_g/h` is the momentum that moves the placement by its own size within a step of length `h`, or one of those before,
+///   if these were longer. Without that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not
+///   have, and one at rest would take ever shorter steps. By shorter steps alone a body would leave a wall with any momentum.
 ///
 /// `work`, which nothing depends on, is not measured: it is an integral over the rest, and as good as that.
 ///
@@ -212,16 +212,21 @@ impl ErrorNorm {
         Self { groups: &self.groups[..within.count()], ..self }
     }
 
-    /// `max_g value(range of g) / s_g` for a step of length `h`; zero where `value` is, and NaN where a scale is
-    /// not finite.
+    /// `max_g value(range of g) / s_g` where errors of momenta last for the time `h`; zero where `value` is, and NaN where a scale
+    /// is not finite.
     #[inline(always)]
     #[doc(hidden)]
     pub fn largest(&self, h: f64, before: &[f64], after: &[f64], value: impl Fn(Range<usize>) -> f64) -> f64 {
         self.largest_within(h, &[f64::INFINITY; GROUPS], before, after, value)
     }
 
-    /// The same, where what an error of a momentum may be is at most a bound of its group: a long step lets any momentum
-    /// move the placement by little, and one that is larger than the body has had cannot be meant.
+    /// What errors of momenta are held against at the most: the largest that these were, or what moves the placement in a time.
+    pub(crate) fn bounds(&self, lasting: f64, largest: &[f64; GROUPS]) -> [f64; GROUPS] {
+        core::array::from_fn(|k| larger(largest[k], self.floor(k, lasting)))
+    }
+
+    /// The same, where what an error of a momentum may be is at most a [bound](Self::bounds) of its group: in a short step any
+    /// momentum moves the placement by little, and one that is larger than the body has had cannot be meant.
     #[inline(always)]
     pub(crate) fn largest_within(
         &self,
@@ -257,7 +262,7 @@ impl ErrorNorm {
         largest
     }
 
-    /// What an error of a momentum may be because of what it moves in a step of length `h`.
+    /// What an error of a momentum may be because of what it moves in a time `h`.
     #[inline(always)]
     fn floor(&self, k: usize, h: f64) -> f64 {
         match self.inertia.get(k) {

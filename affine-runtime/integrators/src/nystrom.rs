@@ -175,7 +175,8 @@ impl<S: StateVector<f64>, C, R: SecondOrder<S, C>> Attempt for NystromSteps<S, C
         self.step.attempt_in(vectors, (&self.system, &self.constants), end);
         let after = self.with_end_of_step();
         let [positions, momenta] = self.step.error_slopes();
-        let largest = self.error_norm.largest(h, self.state.as_ref(), after.as_ref(), |range| {
+        let lasting = control.controller.lasting(h);
+        let largest = self.error_norm.largest(lasting, self.state.as_ref(), after.as_ref(), |range| {
             match range.start.checked_sub(R::Half::LEN) {
                 Some(start) => norm(&momenta.as_ref()[start..start + range.len()]),
                 None => norm(&positions.as_ref()[range]),

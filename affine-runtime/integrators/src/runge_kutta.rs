@@ -195,19 +195,20 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
 
     /// Estimated error of the attempted step relative to the tolerance; NaN where something is not finite.
     #[inline(always)]
-    fn error(&self, vectors: impl Vectors, (rise, reached): (&L, &S), tolerance: f64) -> f64 {
+    fn error(&self, vectors: impl Vectors, (rise, reached): (&L, &S), control: &Control) -> f64 {
         let stages = self.field.stages(vectors, self.coordinates, &self.begin);
         let (first, second) = P::error_slopes(&self.step, &stages, rise);
         // One by one: what arrays are mapped by is not compiled for the vectors of the processor.
         let first = self.coordinates.change(&self.begin, &self.field.read(&first));
         let second = self.coordinates.change(&self.begin, &self.field.read(&second));
+        let length = self.step.length().abs();
         let relative = P::largest(&Judged {
             error_norm: &self.error_norm,
-            length: self.step.length().abs(),
+            lasting: control.controller.lasting(length),
             states: [self.begin.value.as_ref(), reached.as_ref()],
             slopes: [first.as_ref(), second.as_ref()],
         });
-        self.step.length().abs() / tolerance * relative
+        length / control.tolerance * relative
     }
 }
 
@@ -275,7 +276,7 @@ impl<P: Pair, S: StateVector<f64>, F: Field<S, C, L>, C: Coordinates<S>, L: Stat
         if P::NEEDS_END {
             self.slope_at(vectors, end, &reached.value);
         }
-        let error = self.error(vectors, (&rise, &reached.value), control.tolerance);
+        let error = self.error(vectors, (&rise, &reached.value), control);
         if !P::NEEDS_END && error <= 1.0 {
             control.statistics.evaluations += 1;
             self.slope_at(vectors, end, &reached.value);

@@ -6,6 +6,7 @@ pub(crate) mod in_lanes;
 use super::error_norm::ErrorNorm;
 use super::roughly::{exp, exp_of_moderate, ln, ln_of_normal};
 use super::tape::Tape;
+use affine_core::__private::numerics::larger;
 use affine_core::model::StateVector;
 use affine_core::scalar::Scalar;
 
@@ -26,6 +27,9 @@ const PROPORTIONAL: f64 = 0.3;
 const TREND_FROM: f64 = -9.0;
 /// Smaller errors, zero among them, count as this, which allows the largest growth.
 const LEAST_ERROR: f64 = 1e-30;
+/// After each step so much is left of the time that errors of momenta are held against. A short contact, of some hundred steps
+/// at the most, is measured by the flight before it; a body that goes on vibrating, by its vibrations.
+const LASTING: f64 = 0.99;
 /// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
 /// error terms of methods of high order are so small that it errs far less.
 pub(crate) const FIRST_ERROR: f64 = 10.0;
@@ -43,6 +47,8 @@ pub(crate) struct Controller {
     /// Logarithm of the previous error.
     pub(super) previous: f64,
     pub(super) rejected: bool,
+    /// How long steps were, and the first one was to be.
+    pub(crate) lasting: f64,
 }
 
 impl Controller {
@@ -53,6 +59,7 @@ impl Controller {
             margin: ln_of_normal(margin),
             previous: TREND_FROM,
             rejected: false,
+            lasting: 0.0,
         }
     }
 
@@ -60,6 +67,20 @@ impl Controller {
     pub(crate) fn exchange(&mut self, tape: &mut impl Tape) {
         tape.number(&mut self.previous);
         tape.flag(&mut self.rejected);
+        tape.number(&mut self.lasting);
+    }
+
+    /// The time in which what an error of a momentum moves counts, in a step of length `h`: an error lasts, and moves the body by
+    /// more once steps are longer again.
+    #[inline(always)]
+    pub(crate) fn lasting(&self, h: f64) -> f64 {
+        larger(h, self.lasting)
+    }
+
+    /// A step of a length was taken.
+    #[inline(always)]
+    pub(crate) fn took(&mut self, h: f64) {
+        self.lasting = larger(h, LASTING * self.lasting);
     }
 
     /// Factor of the step size after an accepted step with `error <= 1`.

@@ -205,7 +205,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
             }
             again = true;
         }
-        let length = self.longest(control.tolerance);
+        let length = self.longest(control);
         if length.is_nan() {
             return Err(Failure::NotFinite);
         }
@@ -234,6 +234,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         }
         (self.begin, self.t, self.y, self.carry) = (self.t, end, y, carry);
         control.statistics.steps += 1;
+        control.controller.took((self.t - self.begin).abs());
         Ok(())
     }
 
@@ -276,9 +277,10 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
 
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
-    fn longest(&self, tolerance: f64) -> f64 {
+    fn longest(&self, control: &Control) -> f64 {
         let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
-        let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, (tolerance, self.unit));
+        let times = (control.tolerance, self.unit, control.controller.lasting);
+        let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, times);
         exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
     }
 
@@ -298,7 +300,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
             defect.as_mut().iter_mut().zip(rates).for_each(|(defect, rate)| *defect = h * (*defect - rate));
             control.statistics.evaluations += 1;
             let (states, defect) = ([self.y.as_ref(), after.as_ref()], defect.as_ref());
-            let error = self.error_norm.largest(h.abs(), states[0], states[1], |range| norm(&defect[range]));
+            let lasting = control.controller.lasting(h.abs());
+            let error = self.error_norm.largest(lasting, states[0], states[1], |range| norm(&defect[range]));
             let error = larger(error, self.error_norm.over_energy(states, slope.as_ref(), defect)) / allowed;
             if error <= 1.0 || h.abs() <= shortest(self.t, control.t_end) {
                 return end;

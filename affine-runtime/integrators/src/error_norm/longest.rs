@@ -7,15 +7,16 @@ use affine_core::__private::numerics::{IN_RANGE, norm, square};
 impl ErrorNorm {
     /// `ln h` of the longest `h` with `|c| h^j <= tolerance s_g` for each group `g` of two coefficients `c`, given with their
     /// orders `j`, at a state `y`; `s_g = max(|g|, 0.1 mu_g/h)` as in [`ErrorNorm`], so that there are bounds of `h^j` and of
-    /// `h^(j + 1)`. Time is measured in a `unit`. Infinite where nothing bounds it, NaN where a coefficient is none.
+    /// `h^(j + 1)`, the latter where `h` is longer than errors last by themselves. Time is measured in a `unit`. Infinite where
+    /// nothing bounds it, NaN where a coefficient is none.
     #[inline(always)]
     pub(crate) fn longest(
         &self,
         y: &[f64],
         terms: [(&[f64], usize); 2],
-        (tolerance, unit): (f64, f64),
+        (tolerance, unit, lasting): (f64, f64, f64),
     ) -> f64 {
-        let ln_tolerance = ln(tolerance);
+        let (ln_tolerance, lasting) = (ln(tolerance), ln(lasting / unit));
         let mut longest = f64::INFINITY;
         let mut start = 0;
         for (k, group) in self.groups.iter().enumerate() {
@@ -45,7 +46,8 @@ impl ErrorNorm {
             };
             for (coefficient, j) in [(one, terms[0].1), (other, terms[1].1)] {
                 let within = |scale: f64, j: usize| (ln_tolerance + (scale - coefficient)) / j as f64;
-                let (of_size, of_floor) = (within(own, j), within(floor, j + 1));
+                let (of_size, of_moved) = (within(own, j), within(floor, j + 1));
+                let of_floor = if of_moved < lasting { within(floor - lasting, j) } else { of_moved };
                 let bound = if has_floor && of_floor > of_size { of_floor } else { of_size };
                 // Zero is no bound, whatever it is measured against; a NaN is kept.
                 if coefficient != f64::NEG_INFINITY && !(longest <= bound || longest.is_nan()) {
@@ -78,14 +80,19 @@ mod tests {
     }
 
     fn longest(y: &[f64; 7], terms: [&[f64; 7]; 2], unit: f64) -> f64 {
+        longest_after(y, terms, (unit, 0.0))
+    }
+
+    /// The same where errors last for a time.
+    fn longest_after(y: &[f64; 7], terms: [&[f64; 7]; 2], (unit, lasting): (f64, f64)) -> f64 {
         let terms = [(&terms[0][..], ORDERS[0]), (&terms[1][..], ORDERS[1])];
-        measure().longest(y, terms, (TOLERANCE, unit)).exp()
+        measure().longest(y, terms, (TOLERANCE, unit, lasting)).exp()
     }
 
     /// The larger of both terms over the tolerance, in a step of length `h`, by the norm itself.
-    fn excess(y: &[f64; 7], terms: [&[f64; 7]; 2], h: f64) -> f64 {
+    fn excess(y: &[f64; 7], terms: [&[f64; 7]; 2], h: f64, lasting: f64) -> f64 {
         let of = |term: &[f64; 7], j: usize| {
-            measure().largest(h, y, y, |r| norm(&term[r])) * libm::pow(h, j as f64) / TOLERANCE
+            measure().largest(h.max(lasting), y, y, |r| norm(&term[r])) * libm::pow(h, j as f64) / TOLERANCE
         };
         of(terms[0], ORDERS[0]).max(of(terms[1], ORDERS[1]))
     }
@@ -112,8 +119,11 @@ mod tests {
         states.push(([0.3, 3.0, 4.0, 7.0, 0.0, 0.0, 0.0], plain, plain));
         for (y, one, other) in &states {
             let h = longest(y, [one, other], 1.0);
-            let excess = excess(y, [one, other], h);
-            assert!((excess - 1.0).abs() < 1e-3, "{y:?} {one:?} {other:?}: {excess}");
+            for lasting in [0.0, 0.5 * h, 3.0 * h, 100.0 * h] {
+                let h = longest_after(y, [one, other], (1.0, lasting));
+                let excess = excess(y, [one, other], h, lasting);
+                assert!((excess - 1.0).abs() < 1e-3, "{y:?} {one:?} {other:?}, {lasting}: {excess}");
+            }
             // In another unit of time, the same step.
             let in_unit = |term: &[f64; 7], j: usize| term.map(|v| v * libm::pow(0.25, j as f64));
             let [one, other] = [in_unit(one, ORDERS[0]), in_unit(other, ORDERS[1])];

@@ -155,7 +155,9 @@ impl<T: Lanes, S: StateVector<T>, F: Equations<T, S>> RungeKutta8InLanes<T, S, F
         attempt.stage(simd, NODES[10], &A12);
         let doubt = attempt.end(simd, measured);
         let h = attempt.h.abs();
-        let error = h / T::constant(self.tolerance, 0.0) * self.norm.largest(simd, h, F::GROUPS, measured);
+        let lasting = h.max(clocks.lasting);
+        let error =
+            h / T::constant(self.tolerance, 0.0) * self.norm.largest(simd, lasting, F::GROUPS, measured);
         self.turn(simd, error, doubt)
     }
 

@@ -11,8 +11,8 @@ use affine_core::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct Judged<'s> {
     pub(super) error_norm: &'s ErrorNorm,
-    /// Length of the step.
-    pub(super) length: f64,
+    /// The time in which what an error of a momentum moves counts.
+    pub(super) lasting: f64,
     /// Where it begins and ends.
     pub(super) states: [&'s [f64]; 2],
     /// Differences, divided by the length, of the solution to the embedded ones.
@@ -37,8 +37,8 @@ impl<F: Fn((f64, f64)) -> f64> Work for Largest<'_, '_, F> {
     type Output = f64;
     #[inline(always)]
     fn run(self, _: impl Vectors) -> f64 {
-        let Self { judged: &Judged { error_norm, length, states: [before, after], slopes }, error } = self;
-        error_norm.largest(length, before, after, |range| {
+        let Self { judged: &Judged { error_norm, lasting, states: [before, after], slopes }, error } = self;
+        error_norm.largest(lasting, before, after, |range| {
             let slopes = slopes.map(|slopes| &slopes[range.clone()]);
             let squares = (sum_of_squares(slopes[0]), sum_of_squares(slopes[1]));
             if IN_RANGE.contains(&squares.0) { error(squares) } else { scaled_error(slopes, &error) }

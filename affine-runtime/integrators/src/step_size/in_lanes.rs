@@ -18,6 +18,8 @@ pub(crate) struct Clocks<T> {
     previous: T,
     /// 1 after a rejected step, or 0.
     rejected: T,
+    /// How long steps were.
+    pub(crate) lasting: T,
     /// Before the first step.
     fresh: Controller,
     t_end: f64,
@@ -41,7 +43,8 @@ impl<T: Lanes> Clocks<T> {
     pub(crate) fn new(fresh: Controller, t_end: f64, max_steps: u64) -> Self {
         let (zero, t) = (T::zero(), T::constant(t_end, 0.0));
         let max_steps = max_steps as f64;
-        Self { t, end: t, length: zero, steps: zero, previous: zero, rejected: zero, fresh, t_end, max_steps }
+        let (length, steps, previous, rejected, lasting) = (zero, zero, zero, zero, zero);
+        Self { t, end: t, length, steps, previous, rejected, lasting, fresh, t_end, max_steps }
     }
 
     /// Goes on to another end, with the lengths that steps have; what rests stays at rest.
@@ -62,6 +65,7 @@ impl<T: Lanes> Clocks<T> {
         self.length.set_lane(lane, length);
         self.previous.set_lane(lane, self.fresh.previous);
         self.rejected.set_lane(lane, 0.0);
+        self.lasting.set_lane(lane, length);
         self.steps.set_lane(lane, 0.0);
     }
 
@@ -82,8 +86,11 @@ impl<T: Lanes> Clocks<T> {
             let (t, end, error) = (self.t.lane(lane), self.end.lane(lane), error.lane(lane));
             let (previous, rejected) = (self.previous.lane(lane), self.rejected.lane(lane));
             let accepted = error <= 1.0;
-            let mut controller = Controller { previous, rejected: rejected != 0.0, ..fresh };
-            let length = (end - t).abs() * controller.factor(accepted, error);
+            let lasting = self.lasting.lane(lane);
+            let mut controller = Controller { previous, rejected: rejected != 0.0, lasting, ..fresh };
+            let tried = (end - t).abs();
+            let length = tried * controller.factor(accepted, error);
+            controller.took(tried);
             let steps = self.steps.lane(lane) + if accepted { 1.0 } else { 0.0 };
             let has_arrived = if end == t_end { fate::ARRIVED } else { fate::UNDER_WAY };
             let goes_on = if steps >= max_steps && end != t_end { fate::LIMITED } else { has_arrived };
@@ -101,6 +108,7 @@ impl<T: Lanes> Clocks<T> {
             next.length.set_lane(lane, kept(self.length.lane(lane), length));
             next.previous.set_lane(lane, kept(previous, controller.previous));
             next.rejected.set_lane(lane, kept(rejected, if accepted { 0.0 } else { 1.0 }));
+            next.lasting.set_lane(lane, kept(lasting, if accepted { controller.lasting } else { lasting }));
             next.steps.set_lane(lane, steps);
         }
         *self = next;
