@@ -19,3 +19,5 @@ mod small;
 mod stretched;
 #[path = "domain/time.rs"]
 mod time;
+#[path = "domain/walls.rs"]
+mod walls;
