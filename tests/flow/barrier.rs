@@ -12,7 +12,7 @@ const MODEL: Confined = Confined { barrier: Barrier };
 
 /// Steps so long that they end behind a wall.
 const METHODS: [Method; 2] = [Method::RungeKutta8, Method::Splitting { order: 2, step: 0.05 }];
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-1;
 
 fn at(x: f64, speed: f64) -> Point {
     let (x, x_dot) = (Vector::<2>::new(x, 0.3), Vector::<2>::new(speed, 0.0));

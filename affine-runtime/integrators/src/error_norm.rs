@@ -220,13 +220,13 @@ impl ErrorNorm {
         self.largest_within(h, &[f64::INFINITY; GROUPS], before, after, value)
     }
 
-    /// What errors of momenta are held against at the most: the largest that these were, or what moves the placement in a time.
-    pub(crate) fn bounds(&self, lasting: f64, largest: &[f64; GROUPS]) -> [f64; GROUPS] {
-        core::array::from_fn(|k| larger(largest[k], self.floor(k, lasting)))
+    /// What errors of momenta may be because of what they move in a time.
+    pub(crate) fn floors(&self, h: f64) -> [f64; GROUPS] {
+        core::array::from_fn(|k| self.floor(k, h))
     }
 
-    /// The same, where what an error of a momentum may be is at most a [bound](Self::bounds) of its group: in a short step any
-    /// momentum moves the placement by little, and one that is larger than the body has had cannot be meant.
+    /// The same, where what an error of a momentum may be is at most a bound of its group: in a short step any momentum moves
+    /// the placement by little, and one that is larger than the body has had cannot be meant.
     #[inline(always)]
     pub(crate) fn largest_within(
         &self,

@@ -46,10 +46,8 @@ pub struct RadauSteps<S, F, J, C> {
     tableau: &'static Tableau,
     newton: Newton<S, MODES>,
     error_norm: ErrorNorm,
-    /// The largest that each group has been.
+    /// The largest that each group has been, or what moves the placement within the interval.
     largest: [f64; GROUPS],
-    /// What errors of momenta are held against at the most.
-    bounds: [f64; GROUPS],
     t: f64,
     begin: Sum<S>,
     end: Sum<S>,
@@ -126,8 +124,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             tableau,
             newton: Newton::with_real_mode(tableau.modes, independent(groups)),
             error_norm,
-            largest: [0.0; GROUPS],
-            bounds: [0.0; GROUPS],
+            largest: error_norm.floors((t_end - t0).abs()),
             t: t0,
             begin,
             end: begin,
@@ -202,7 +199,6 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let field = Field { f: &self.f, coordinates: self.coordinates, base: &self.end };
         let (start, jacobian) = ((self.t, &self.origin, &self.slope), &self.jacobian);
         let extent = self.error_norm.extents(control.length, &self.end.value, &self.origin);
-        self.bounds = self.error_norm.bounds(control.controller.lasting, &self.largest);
         let mut spent = 0;
         self.newton.learn(|columns| {
             spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), start, &extent, columns);
@@ -259,7 +255,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             tolerance: control.tolerance,
             evaluations: 0,
         };
-        let (norm_of, bounds) = (&self.error_norm, &self.bounds);
+        let (norm_of, bounds) = (&self.error_norm, &self.largest);
         let size = |change: &S, stage: &S| {
             let (before, after) = (base.value, plus(origin, stage));
             let value = |range: core::ops::Range<usize>| norm(&change.as_ref()[range]);
@@ -294,7 +290,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
             let change = self.coordinates.change(base, error);
             let value = |range: core::ops::Range<usize>| norm(&change.as_ref()[range]);
             let (before, after) = (base.value.as_ref(), end.as_ref());
-            self.error_norm.largest_within(h.abs(), &self.bounds, before, after, value) / tolerance
+            self.error_norm.largest_within(h.abs(), &self.largest, before, after, value) / tolerance
         };
         let error = embedded(&self.slope);
         let size = relative(&error);

@@ -29,7 +29,7 @@ const TREND_FROM: f64 = -9.0;
 const LEAST_ERROR: f64 = 1e-30;
 /// After each step so much is left of the time that errors of momenta are held against. A short contact, of some hundred steps
 /// at the most, is measured by the flight before it; a body that goes on vibrating, by its vibrations.
-const LASTING: f64 = 0.99;
+const LASTING: f64 = 0.97;
 /// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
 /// error terms of methods of high order are so small that it errs far less.
 pub(crate) const FIRST_ERROR: f64 = 10.0;

@@ -26,7 +26,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let is_near = |guess: &S| {
             let after = plus(&base, guess);
             let value = |range: core::ops::Range<usize>| norm(&guess.as_ref()[range]);
-            self.error_norm.largest_within(h.abs(), &self.bounds, base.as_ref(), after.as_ref(), value) < 0.5
+            self.error_norm.largest_within(h.abs(), &self.largest, base.as_ref(), after.as_ref(), value) < 0.5
         };
         guess.iter().take(self.tableau.stages()).all(is_near).then_some(guess)
     }
