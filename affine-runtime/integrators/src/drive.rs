@@ -77,12 +77,11 @@ const ROOM: f64 = 1024.0;
 impl Control {
     pub(crate) fn new(
         (t_end, tolerance): (f64, f64),
-        mut controller: Controller,
+        controller: Controller,
         length: f64,
         evaluations: u64,
     ) -> Self {
         let statistics = Statistics { evaluations, ..Statistics::default() };
-        controller.lasting = length;
         Self { tolerance, controller, length, t_end, statistics, failure: None }
     }
 

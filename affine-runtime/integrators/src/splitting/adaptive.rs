@@ -197,8 +197,7 @@ impl<S: StateVector<f64>, C, P: Pieces<S, C>> HalvedSteps<S, C, P> {
             *difference -= value;
         }
         let of_group = |range| norm(&difference.as_ref()[range]);
-        let lasting = control.controller.lasting(h.abs());
-        let relative = self.error_norm.largest(lasting, before, after, of_group);
+        let relative = self.error_norm.largest(h.abs(), before, after, of_group);
         (reached, if is_finite(&reached.value) { relative } else { f64::NAN })
     }
 

@@ -65,7 +65,7 @@ impl<T: Lanes> Clocks<T> {
         self.length.set_lane(lane, length);
         self.previous.set_lane(lane, self.fresh.previous);
         self.rejected.set_lane(lane, 0.0);
-        self.lasting.set_lane(lane, length);
+        self.lasting.set_lane(lane, 0.0);
         self.steps.set_lane(lane, 0.0);
     }
 
