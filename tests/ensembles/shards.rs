@@ -1,10 +1,14 @@
 //! Parts of an ensemble, and bodies that are run again.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use affine_runtime::model::Owned;
 use affine_runtime::prelude::*;
-use affine_runtime::simulate::Member;
+use affine_runtime::simulate::{Format, Member};
 
 use crate::models::{Elastic, PreparedVibrating, Sampled, Vibrating, vibrating};
+use crate::saved::Folder;
 
 type Seen = Vec<Member<<PreparedVibrating as Model<3>>::Point<f64>, f64>>;
 
@@ -53,6 +57,31 @@ fn a_body_is_run_again_from_its_number() {
     assert_eq!(rest, expected, "what a shard had left");
     let sixths = seen(|ensemble| ensemble.shard(1, 2).shard(2, 3));
     assert!(sixths.iter().map(|body| body.number).eq((0..BODIES as u64).filter(|k| k % 6 == 5)));
+}
+
+/// Starts without an end, of which no more are taken than numbers ask for.
+#[test]
+fn endless_starts_end_at_the_last_number() {
+    let start = Elastic.samples(7, 62);
+    let taken = Arc::new(AtomicU64::new(0));
+    let ensemble = || {
+        let taken = Arc::clone(&taken);
+        let starts = start.clone().into_iter().cycle().inspect(move |_| {
+            // A panic is better than an ensemble that never comes to an end.
+            assert!(taken.fetch_add(1, Ordering::Relaxed) < 10, "a start that no number asks for");
+        });
+        Ensemble::new(&Elastic, starts).until(0.05).tolerance(1e-6)
+    };
+    assert_eq!(ensemble().numbers(3..10).run().unwrap().len(), 7);
+    assert_eq!(taken.swap(0, Ordering::Relaxed), 10);
+    assert_eq!(ensemble().shard(1, 2).numbers(0..u64::MAX).numbers(2..10).run().unwrap().len(), 4);
+    taken.store(0, Ordering::Relaxed);
+    let folder = Folder::new("endless");
+    for _ in 0..2 {
+        ensemble().numbers(0..10).save(&folder.0, (Format::Csv, 4), &[], |_| Vec::new()).unwrap();
+        assert_eq!(folder.files().len(), 1 + 3);
+        taken.store(0, Ordering::Relaxed);
+    }
 }
 
 /// Neither chunks nor threads: more bodies than are there at once, in pools of one thread and of three.

@@ -110,6 +110,9 @@ fn frames_that_are_too_long() {
     let mut flow = Flow::by(Method::Splitting { order: 2, step: 0.01 }, &cube, (0.0, start)).unwrap();
     let stop = flow.advance(1e300).unwrap_err();
     assert!(matches!(stop.reason, Reason::Setting(Setting::Step { .. })), "{stop}");
+    assert!(stop.to_string().contains(" between 0 and 1e300: "), "{stop}");
+    let tiny = flow.interpolate(5e-324).unwrap_err().to_string();
+    assert!(tiny.contains("time 5e-324 lies outside the last step, from 0 to 0"), "{tiny}");
     assert_eq!((flow.t(), flow.point()), (0.0, start));
     flow.set_max_steps(100);
     let stop = flow.advance_to(2.0).unwrap_err();

@@ -114,3 +114,28 @@ fn reports() {
         assert!(matches!(setting(report(0.5).methods([bad])), Setting::Step { .. }));
     });
 }
+
+/// Thrown against a wall that is a thousand times thinner than the way there.
+#[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = orthogonality(1) + exp(-k*x[1]))]
+#[derive(Clone)]
+struct AtWall {
+    k: f64,
+}
+
+/// Behind the wall the exponential overflows: the body is gone, and the placement, which is none the worse for it, comes last.
+#[test]
+fn a_reference_has_numbers() {
+    within_patience(|| {
+        for k in [30.0, 1e4, 1e6] {
+            let model = AtWall { k }.prepare().unwrap();
+            let turning = Matrix::<2>::new(0.0, -0.1, 0.1, 0.0);
+            let (x, v) = (Vector::<2>::new(0.5, 0.0), Vector::<2>::new(-1.0, 0.0));
+            let start = model.at_velocity(x, Matrix::<2>::identity(), v, turning).unwrap();
+            match reference_solution(&model, &start, (0.0, 1.2)) {
+                // All the energy that the wall took is given back but `exp(-k x)` of it.
+                Ok(end) => assert!((end.p()[0] - 1.0).abs() < 1e-5, "{k:e}: {}", end.p()),
+                Err(error) => assert_eq!(error, Error::NoReference { model: "AtWall" }, "{k:e}"),
+            }
+        }
+    });
+}

@@ -44,10 +44,10 @@ fn asks() -> Vec<(Ask, Vec<String>)> {
     add(many, &["output every 1e0 between 0 and 1000000000", "at most 1e8 outputs"]);
     let lost = Ask { from: 1e20, until: 1e20 + 1e5, outputs: Outputs::Every(1.0), ..sound() };
     // Equal steps are refused before outputs are looked at.
-    add(lost, &["between 100000000000000000000 and", "coarser than the rounding of times"]);
+    add(lost, &["between 1e20 and 1.000000000000001e20", "coarser than the rounding of times"]);
     for (times, words) in [
         (vec![0.1, 0.6], "output time 0.6 (number 1 of the list, from 0) lies outside the run from 0 to 0.5"),
-        (vec![-1e-300], "output time -0."),
+        (vec![-1e-300], "output time -1e-300 (number 0 of the list, from 0) lies outside"),
         (vec![0.3, 0.2], "output time 0.2 (number 1 of the list, from 0) does not come after 0.3"),
         (vec![0.1, 0.3, 0.3], "output time 0.3 (number 2 of the list, from 0) does not come after 0.3"),
         (vec![0.0, -0.0], "output time -0 (number 1 of the list, from 0) does not come after 0"),

@@ -26,6 +26,7 @@ pub(crate) use expression_parser::application;
 pub use crate::symbol::Capability;
 pub use custom::{Custom, Mark, Role, SelfGravity};
 pub use expression::{Expression, ExpressionKind, MatrixName, Operator, PolynomialTrace, more_factors};
+pub(crate) use item::repeated;
 pub use item::{Field, Item};
 pub use matrix_field::Storage;
 pub use momentum_side::MomentumKind;

@@ -19,6 +19,10 @@ pub fn stub(args: TokenStream, item: &TokenStream, rejected: &Rejected) -> Token
 
 fn stand_in(args: TokenStream, item: &TokenStream) -> Option<TokenStream> {
     let input: DeriveInput = syn::parse2(item.clone()).ok()?;
+    if spec::repeated(&input).is_some() {
+        // The other one makes the model, or the stand-in.
+        return None;
+    }
     let outline = Outline::of(args)?;
     let field = parameter(&input.data, &outline);
     let mut spec = outline.well_posed(field.as_ref().map(|field| &field.ident))?;

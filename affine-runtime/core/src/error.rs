@@ -4,6 +4,7 @@
 mod setting;
 #[cfg(feature = "std")]
 mod stop;
+pub(crate) mod time;
 #[cfg(feature = "std")]
 mod written;
 

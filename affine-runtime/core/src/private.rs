@@ -103,6 +103,7 @@ pub mod numerics {
     pub use crate::decompose::exponential::{LN2_HIGH, LN2_LOW, SERIES};
     pub use crate::divisor::{Divisor, HIGHEST_ORDER, LOWEST_ORDER};
     pub use crate::elliptic::{carlson_rf, duplicated};
+    pub use crate::error::time::Time;
     #[cfg(feature = "serde")]
     pub use crate::interned::{constant, number, optional_word, word};
     pub use crate::kinematics::dilatation::LogDeterminant;

@@ -39,6 +39,8 @@ pub use widest::FusedArithmetic;
 
 use core::fmt;
 
+use affine_core::__private::numerics::Time;
+
 /// What emitted code and runs use besides. No stable interface.
 #[doc(hidden)]
 pub mod __private {
@@ -154,7 +156,9 @@ impl fmt::Display for Failure {
             ),
             Failure::Step { given, t0, t_end } => write!(
                 f,
-                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of times"
+                "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of times",
+                t0 = Time(*t0),
+                t_end = Time(*t_end)
             ),
         }
     }

@@ -5,6 +5,7 @@ use core::fmt;
 use super::{Lattice, LatticeForm, TwoPolarForm, Variables};
 use crate::error::Error;
 use crate::frames::Matrix;
+use crate::inner::Time;
 use crate::integrate::{Failure, RungeKutta8};
 use crate::model::{Group, Quantity};
 
@@ -290,7 +291,7 @@ pub(super) fn sound(tolerance: f64) -> Result<(), StopReason> {
 
 impl<const N: usize> fmt::Display for LatticeStop<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the motion of the lattice stopped at t = {}: {}", self.t, self.reason)
+        write!(f, "the motion of the lattice stopped at t = {}: {}", Time(self.t), self.reason)
     }
 }
 

@@ -3,7 +3,7 @@
 use qd::Quad;
 
 use crate::error::{Error, Result};
-use crate::inner::norm;
+use crate::inner::{larger, norm};
 use crate::model::{Description, Model, StateVector};
 
 /// Columns of the extrapolation table; the last is of order 20.
@@ -103,9 +103,9 @@ fn step<S: StateVector<Quad>>(
             .map(|(a, b)| (*a - *b).0)
             .collect();
         let of_group = norm(&difference);
-        // Not `f64::max`, which would drop a NaN; 0/0 is a group that stays zero.
+        // 0/0 is a group that stays zero.
         let relative = if of_group == 0.0 { 0.0 } else { of_group / size(&last.as_ref()[range]) };
-        error = if relative <= error { error } else { relative };
+        error = larger(error, relative);
     }
     (*last, error)
 }

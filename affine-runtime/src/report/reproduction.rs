@@ -7,6 +7,14 @@ use crate::state::Phase;
 /// Names of fields with their numbers: one, or those of a square matrix row by row.
 type Values = [(&'static str, Vec<f64>)];
 
+/// Words of the language that are names only in their raw form; the Rust Reference, Keywords.
+const KEYWORDS: [&str; 48] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
+    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "static", "struct", "trait",
+    "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
 /// What was asked for, what it cost, and the fields of the model, line by line.
 pub(super) fn settings<const N: usize, P: Phase<N>>(
     run: &Trajectory<N, P>,
@@ -35,9 +43,14 @@ pub(super) fn program<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>, field
     let model = match fields {
         [] => format!("// model: the {name} of this run, prepared where it has fields\n"),
         fields => {
-            let fields: Vec<String> =
-                fields.iter().map(|(field, values)| format!("{field}: {}", field_value(values))).collect();
-            format!("let model = {name} {{ {} }}.prepare()?;\n", fields.join(", "))
+            let field = |(name, values): &(&'static str, Vec<f64>)| {
+                format!("{}: {}", identifier(name), field_value(values))
+            };
+            let (name, fields) = (identifier(name), fields.iter().map(field).collect::<Vec<_>>().join(", "));
+            format!(
+                "// Fields of {name} that its coefficients are not computed from, such as forces, are for you to add.\n\
+                 let model = {name} {{ {fields} }}.prepare()?;\n"
+            )
         }
     };
     let argument = |(name, values): (&str, Vec<f64>)| {
@@ -70,15 +83,21 @@ pub(super) fn program<const N: usize, P: Phase<N>>(run: &Trajectory<N, P>, field
     )
 }
 
+/// A matrix is written so that fields of either kind take it, arrays of rows and those of nalgebra, which count its columns
+/// first: it is symmetric.
 fn field_value(values: &[f64]) -> String {
     match values {
         [value] => format!("{value:?}"),
-        // Larger ones have no constructor of single numbers.
-        values if values.len() > 36 => {
-            format!("Matrix::<{}>::from_row_slice(&[{}])", values.len().isqrt(), listed(values))
+        values => {
+            let rows = values.chunks(values.len().isqrt()).map(|row| format!("[{}]", listed(row)));
+            format!("[{}].into()", rows.collect::<Vec<_>>().join(", "))
         }
-        values => format!("Matrix::<{}>::new({})", values.len().isqrt(), listed(values)),
     }
+}
+
+/// A name as a program writes it.
+fn identifier(name: &str) -> String {
+    if KEYWORDS.contains(&name) { format!("r#{name}") } else { name.to_owned() }
 }
 
 fn listed(values: &[f64]) -> String {

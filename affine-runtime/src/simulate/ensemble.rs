@@ -195,9 +195,10 @@ impl<'a, const N: usize, H: Handle<N> + 'a> Ensemble<'a, N, H> {
     }
 
     /// The bodies of these numbers alone: one that is to be looked at again, or those that are not done yet. Starts of the
-    /// others are passed over, not run.
+    /// others are passed over, not run; those behind the last number are not asked for, so that starts may be endless.
     #[must_use]
     pub fn numbers(mut self, numbers: Range<u64>) -> Self {
+        self.starts = Box::new(self.starts.take(usize::try_from(numbers.end).unwrap_or(usize::MAX)));
         self.chosen.push(Chosen::Numbers(numbers));
         self
     }

@@ -162,6 +162,8 @@ fn a_page_is_written() {
 /// Code with its text.
 macro_rules! with_its_text {
     ($again:ident, $text:ident, $run:ident: $of:ty, { $($code:tt)* }) => {
+        // Values of matrix fields convert themselves to the type of the field, which may be theirs.
+        #[allow(clippy::useless_conversion)]
         fn $again() -> affine_runtime::Result<$of> {
             $($code)*
             Ok($run)
@@ -172,16 +174,21 @@ macro_rules! with_its_text {
 
 #[affine_model(
     dim = 2,
-    kinetic(casimir2 = 0.2, body_inertia = j, body_translation = 2),
+    kinetic(casimir2 = 0.2, body_inertia = j, body_translation = r#type),
     potential = neo_hookean(k) + 2*q^2,
+    dissipation(body_inertia = r),
 )]
 struct Family {
     k: f64,
     j: Matrix<2>,
+    r#type: f64,
+    r: [[f64; 2]; 2],
 }
 
 with_its_text!(again, AGAIN, run: Trajectory<2, <PreparedFamily as Model<2>>::Point<f64>>, {
-    let model = Family { k: 0.1, j: Matrix::<2>::new(1.0, 0.25, 0.25, 1.5) }.prepare()?;
+    let model = Family {
+        k: 0.1, r#type: 2.0, j: [[1.0, 0.25], [0.25, 1.5]].into(), r: [[0.5, 0.125], [0.125, 0.25]].into()
+    }.prepare()?;
     let start = model.at_momentum(
         Vector::<2>::new(0.5, 1e-20),
         Matrix::<2>::new(1.1, 0.2, -0.1, 0.9),
@@ -195,7 +202,8 @@ with_its_text!(again, AGAIN, run: Trajectory<2, <PreparedFamily as Model<2>>::Po
 /// The program on a page, compiled, makes the run again, bit by bit.
 #[test]
 fn a_page_tells_how_to_make_its_run_again() {
-    let family = Family { k: 0.1, j: Matrix::<2>::new(1.0, 0.25, 0.25, 1.5) };
+    let (j, r) = (Matrix::<2>::new(1.0, 0.25, 0.25, 1.5), [[0.5, 0.125], [0.125, 0.25]]);
+    let family = Family { k: 0.1, j, r#type: 2.0, r };
     let run = again().unwrap();
     let page = plain(&run.page().fields(&family).to_html());
     let program = between(&page, "<h2>The run again</h2>\n<pre>", "</pre>");
@@ -209,12 +217,14 @@ fn a_page_tells_how_to_make_its_run_again() {
     for row in [
         "<td>k</td><td>0.1</td>",
         "<td>j</td><td>1.0, 0.25, 0.25, 1.5</td>",
+        "<td>type</td><td>2.0</td>",
         "<td>from, until</td><td>0.25, 1.5</td>",
         "<td>tolerance asked for</td><td>1e-9</td>",
         "<td>method</td><td>Gauss { stages: 3, step: 0.125 }</td>",
     ] {
         assert!(page.contains(row), "{row}");
     }
+    assert!(program.contains("// Fields of Family that its coefficients are not computed from"));
     let without = plain(&run.to_html());
     assert!(without.contains("// model: the Family of this run") && !without.contains("<td>k</td>"));
     let own = plain(&run.page().program("fn main() { a < b }").to_html());

@@ -146,7 +146,7 @@ fn exponent_is_integer(
     }
     let mistake: Diagnostic = match (value.as_ref().filter(|value| value.is_integer()), place) {
         (Some(power), _) => ExpressionMistake::Degree {
-            degree: power.to_i64().map_or(u64::MAX, i64::unsigned_abs),
+            degree: power.to_string().trim_start_matches('-').to_owned(),
             limit: LARGEST_POWER,
         }
         .into(),
@@ -198,6 +198,7 @@ fn degree_is_bounded(
     if degree <= limit {
         return Ok(degree);
     }
+    let degree = degree.to_string();
     Err(found.report(expression.span, ExpressionMistake::Degree { degree, limit }))
 }
 

@@ -122,8 +122,8 @@ pub enum ExpressionMistake {
     },
     /// Powers of a degree that no coefficient needs.
     Degree {
-        /// The degree.
-        degree: u64,
+        /// The degree, in digits.
+        degree: String,
         /// The largest accepted.
         limit: u64,
     },
@@ -245,7 +245,12 @@ impl ExpressionMistake {
                 "put a comma before it, as in `[[a, b], [c, d]]`",
             ),
             Self::UnknownSymbol { name, nearest, familiar, scope } => {
-                let field = format!("add a field `{name}: f64`");
+                let field = match syn::parse_str::<syn::Ident>(name) {
+                    Ok(_) => format!("add a field `{name}: f64`"),
+                    Err(_) => {
+                        format!("write a number, or a field of another name: `{name}` is a keyword of Rust")
+                    }
+                };
                 text(
                     format!("there is no field or symbol `{name}`"),
                     format!("an expression can use {}", listed(scope)),

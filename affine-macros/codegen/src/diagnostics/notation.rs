@@ -135,6 +135,8 @@ pub enum NotationMistake {
         /// What the item is: `an enum`, ...
         found: &'static str,
     },
+    /// The attribute on an item that has it already.
+    RepeatedAttribute,
     /// An item that is no data type, or that the parser cannot read.
     UnreadableItem {
         /// What the parser says.
@@ -157,6 +159,7 @@ names! { NotationMistake
     Dimension => "dimension",
     RuntimePath => "runtime-path",
     ItemKind => "item-kind",
+    RepeatedAttribute => "repeated-attribute",
     UnreadableItem => "unreadable-item",
 }
 
@@ -256,6 +259,11 @@ impl NotationMistake {
                 "the parameters of a model are the named fields of a struct; a model without parameters is a \
                  unit struct",
                 "write `struct Model;` or `struct Model { a: f64, b: f64 }`",
+            ),
+            Self::RepeatedAttribute => text(
+                "`#[affine_model]` stands on this struct twice",
+                "a struct is one model, and has its methods once",
+                "write one of them, with all items, or a struct for each",
             ),
             Self::UnreadableItem { problem } => text(
                 format!("`#[affine_model]` cannot read this item: {problem}"),

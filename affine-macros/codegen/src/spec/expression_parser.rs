@@ -299,11 +299,13 @@ fn exact(read: &syn::Lit, literal: &str) -> Result<Rational, ExpressionMistake> 
         let number = number.trim_end_matches('_').to_owned();
         return Err(ExpressionMistake::NumberSuffix { number, suffix: suffix.to_owned() });
     }
-    let out_of_range = || ExpressionMistake::NumberRange { literal: super::entries::shortened(literal) };
     let exponent = number.find(['e', 'E']).map_or("0", |at| &number[at + 1..]).replace('_', "");
     let small = exponent.parse::<i32>().is_ok_and(|exponent| exponent.unsigned_abs() <= LARGEST_EXPONENT);
-    if !small || number.len() > MOST_DIGITS {
-        return Err(out_of_range());
+    if !small {
+        return Err(ExpressionMistake::NumberRange { literal: super::entries::shortened(literal) });
+    }
+    if number.len() > MOST_DIGITS {
+        return Err(ExpressionMistake::ExpressionSize { limit: "320 digits in a number" });
     }
     Rational::parse_decimal(number).ok_or_else(not_a_number)
 }

@@ -94,6 +94,9 @@ pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, 
     let input: DeriveInput = syn::parse2(item).map_err(|error| {
         found.report(error.span(), NotationMistake::UnreadableItem { problem: shortened(&error.to_string()) })
     })?;
+    if let Some(again) = repeated(&input) {
+        return Err(found.report(again.span(), NotationMistake::RepeatedAttribute));
+    }
     let fields = match &input.data {
         Data::Struct(data) => match &data.fields {
             Fields::Unit => Vec::new(),
@@ -104,6 +107,12 @@ pub(super) fn parse(item: TokenStream, found: &mut Diagnostics) -> Result<Item, 
         Data::Union(_) => return Err(refused(&input.ident, "a union", found)),
     };
     Ok(Item::new(input, fields, false))
+}
+
+/// The name of our attribute below itself, with any path before it.
+pub(crate) fn repeated(input: &DeriveInput) -> Option<&Ident> {
+    let names = input.attrs.iter().filter_map(|attribute| Some(&attribute.path().segments.last()?.ident));
+    names.into_iter().find(|name| *name == "affine_model")
 }
 
 fn field(field: syn::Field) -> Option<Field> {

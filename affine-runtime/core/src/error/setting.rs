@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::debug_as_displayed;
+use super::time::Time;
 use crate::divisor::{HIGHEST_ORDER, LOWEST_ORDER};
 use crate::quantity::Word;
 
@@ -283,43 +284,66 @@ impl fmt::Display for Setting {
             Setting::Step { given, t0, t_end } => write!(
                 f,
                 "a step of {given:e} between {t0} and {t_end}: it is a positive number, coarser than the rounding of \
-                 times; twenty steps to the shortest period are a good start"
+                 times; twenty steps to the shortest period are a good start",
+                t0 = Time(*t0),
+                t_end = Time(*t_end)
             ),
             Setting::OutputSpacing { dt, t0, t_end } => write!(
                 f,
                 "output every {dt:e} between {t0} and {t_end}: the spacing is a positive number, coarser than the \
-                 rounding of times, and gives at most 1e8 outputs"
+                 rounding of times, and gives at most 1e8 outputs",
+                t0 = Time(*t0),
+                t_end = Time(*t_end)
             ),
             Setting::OutputOutside { index, t, t0, t_end } => write!(
                 f,
                 "output time {t} (number {index} of the list, from 0) lies outside the run from {t0} to {t_end}: \
-                 drop it or extend the run"
+                 drop it or extend the run",
+                t = Time(*t),
+                t0 = Time(*t0),
+                t_end = Time(*t_end)
             ),
             Setting::OutputOrder { index, t, before } => write!(
                 f,
                 "output time {t} (number {index} of the list, from 0) does not come after {before}: list each time \
-                 once, in the direction of the run"
+                 once, in the direction of the run",
+                t = Time(*t),
+                before = Time(*before)
             ),
             Setting::OutsideStep { t, from, to } => write!(
                 f,
                 "time {t} lies outside the last step, from {from} to {to}: a flow knows no other; keep the points of \
-                 earlier times, or run a simulation"
+                 earlier times, or run a simulation",
+                t = Time(*t),
+                from = Time(*from),
+                to = Time(*to)
             ),
             Setting::NotDense { t } => write!(
                 f,
-                "the run has not kept what lies between its outputs: run it with `.dense()`, or with `.output([{t}])`"
+                "the run has not kept what lies between its outputs: run it with `.dense()`, or with `.output([{t}])`",
+                t = Time(*t)
             ),
             Setting::NotKept { t } => write!(
                 f,
-                "the motion about {t} is too fast or has a kink, and is not kept to the tolerance: ask for an output, `.output([{t}])`"
+                "the motion about {t} is too fast or has a kink, and is not kept to the tolerance: ask for an output, `.output([{t}])`",
+                t = Time(*t)
             ),
             Setting::OutsideRun { t, from, to } if !t.is_finite() => {
-                write!(f, "{t} is no time of the run from {from} to {to}")
+                write!(
+                    f,
+                    "{t} is no time of the run from {from} to {to}",
+                    t = Time(*t),
+                    from = Time(*from),
+                    to = Time(*to)
+                )
             }
             Setting::OutsideRun { t, from, to } => write!(
                 f,
                 "time {t} lies outside the run from {from} to {to}, {}: let it begin or end there, `.from({t})` or `.until({t})`",
-                if (to - from) * (t - from) < 0.0 { "before the start" } else { "behind the end" }
+                if (to - from) * (t - from) < 0.0 { "before the start" } else { "behind the end" },
+                t = Time(*t),
+                from = Time(*from),
+                to = Time(*to)
             ),
             Setting::NoClosedForm { model } => write!(
                 f,

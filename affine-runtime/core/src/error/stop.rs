@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::debug_as_displayed;
 use super::setting::Setting;
+use super::time::Time;
 use crate::description::{Bound, Guard};
 use crate::quantity::Word;
 
@@ -206,6 +207,7 @@ impl fmt::Display for Reason {
                  steps that are too long for it; shorten these, end the run before, or change the potential",
             ),
             Reason::Placement { determinant, rate, t } => {
+                let t = Time(*t);
                 match determinant {
                     0.0 => write!(f, "det phi = 0 at t = {t}, not positive")?,
                     // What of it is known next to there is the rate.
@@ -224,7 +226,8 @@ impl fmt::Display for Reason {
                 f,
                 "det phi comes out as {determinant:e} at t = {t}: the body has not collapsed, but its stretches differ so much \
                  that sixteen digits do not tell det phi, or what steps need of the inverse of phi, any more; end the run \
-                 before, or add a potential that keeps the stretches together"
+                 before, or add a potential that keeps the stretches together",
+                t = Time(*t)
             ),
             Reason::Domain { guard: Guard { part, argument, bound }, value, t } => write!(
                 f,
@@ -234,24 +237,28 @@ impl fmt::Display for Reason {
                     Bound::Positive => "is not positive, or about to vanish",
                     Bound::NotNegative => "is negative, or about to be",
                     Bound::NotZero => "changes its sign",
-                }
+                },
+                t = Time(*t)
             ),
             Reason::Energy { energy, t } => write!(
                 f,
                 "the energy is {energy} at t = {t}: a function in it has left the range of numbers or of its own values; end \
-                 the run before, start elsewhere, or choose other units"
+                 the run before, start elsewhere, or choose other units",
+                t = Time(*t)
             ),
             Reason::EnergyLost { defect, scale, t } => write!(
                 f,
                 "the energy is off by {defect:.2e} at t = {t}, where kinetic and potential energy were {scale:.2e} at the most: \
                  the steps have lost the motion, or have passed over a singularity; ask for a smaller tolerance, or end the run \
-                 before"
+                 before",
+                t = Time(*t)
             ),
             Reason::Degenerate { weakest, t } => write!(
                 f,
                 "the mass matrix degenerates at t = {t}, its weakest pivot is {weakest:e} of what it is a difference of: \
                  the momentum does not determine the velocity there; end the run before, start elsewhere, or choose \
-                 coefficients whose sum is definite at every placement"
+                 coefficients whose sum is definite at every placement",
+                t = Time(*t)
             ),
             Reason::Friction { order, rate, longest } => write!(
                 f,
@@ -264,7 +271,8 @@ impl fmt::Display for Reason {
                 f,
                 "q = {q} at t = {t}: Runge-Kutta-Nystrom steps and splitting compute det phi, which with its inverse is in \
                  the range of numbers for |q| below 354, n = 2, and 236, n = 3; the other methods carry q or 1/D \
-                 along and hold beyond it, or choose a unit of length in which the body is nearer to its size"
+                 along and hold beyond it, or choose a unit of length in which the body is nearer to its size",
+                t = Time(*t)
             ),
             Reason::Unresolved { rate, t } => write!(
                 f,
@@ -293,13 +301,15 @@ impl fmt::Display for Reason {
             Reason::Event { event, t } => write!(
                 f,
                 "the function of the event `{event}` is NaN at t = {t}: it has a sign at every phase point of the run; \
-                 give it a number where it is undefined, a constant where the event cannot happen"
+                 give it a number where it is undefined, a constant where the event cannot happen",
+                t = Time(*t)
             ),
             Reason::Accumulation { event, t, count } => write!(
                 f,
                 "the changes of the event `{event}`, {count} of them, accumulate at t = {t}: they follow one another ever \
                  faster, or the last one left the motion at rest where the event happens; let the event stop the run, or \
-                 go on from its end with a model of the motion in contact"
+                 go on from its end with a model of the motion in contact",
+                t = Time(*t)
             ),
             Reason::Change { event } => write!(
                 f,
@@ -322,7 +332,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.reason {
             Reason::Setting(setting) => setting.fmt(f),
-            reason => write!(f, "stopped at t = {} after {} steps: {reason}", self.t, self.steps),
+            reason => write!(f, "stopped at t = {} after {} steps: {reason}", Time(self.t), self.steps),
         }
     }
 }

@@ -6,9 +6,15 @@ use super::{Real, Scalar};
 
 /// Arguments up to this size are for power series.
 const SMALL: f64 = 1.0;
+/// Beside numbers from this size on 1 is less than a rounding. Infinite ones are among them, whose sums and products would be NaN.
+const LARGE: f64 = 1e40;
+/// Counts up to this one are exact doubles.
+const MOST_QUARTERS: f64 = 9007199254740992.0;
 /// Terms of a power series in the square of an argument of at most 1: the next is below `1/31!`.
 const TERMS: u32 = 14;
 
+/// Angles beyond `2^53 pi/2`, some 1.4e16, have neither sine nor cosine nor tangent here: these are NaN. Below, the angle counts
+/// to `2^-106` of its size.
 impl Scalar for Quad {
     fn constant(hi: f64, lo: f64) -> Self {
         Quad::from(hi) + Quad::from(lo)
@@ -26,20 +32,29 @@ impl Scalar for Quad {
         root - (square * root - self) / (square + square + square)
     }
     fn exp(self) -> Self {
-        if self.0.is_nan() { self } else { Quad::exp(self) }
+        multiple_of_exp(1.0, self)
     }
     fn exp_m1(self) -> Self {
         if self.0.abs() > SMALL {
-            return Scalar::exp(self) - Quad::ONE;
+            let exp = Scalar::exp(self);
+            return if exp.0 > LARGE { exp } else { exp - Quad::ONE };
         }
         let half = self * Quad::from(0.5);
         let sinh = odd_series(half, 1.0);
         (sinh + sinh) * Scalar::exp(half)
     }
     fn ln(self) -> Self {
-        Quad::ln(self)
+        let exponent = libm::rint(libm::log2(self.0));
+        if !exponent.is_finite() {
+            return Quad::from(libm::log(self.0));
+        }
+        let near_one = scaled(self, -exponent as i32);
+        (near_one - Quad::ONE).ln_1p() + Quad::LN_2 * Quad::from(exponent)
     }
     fn ln_1p(self) -> Self {
+        if self.0 > LARGE {
+            return Scalar::ln(self);
+        }
         let logarithm = Quad::from(libm::log1p(self.0));
         if logarithm.0 == 0.0 || !logarithm.0.is_finite() {
             return logarithm;
@@ -64,21 +79,25 @@ impl Scalar for Quad {
         if self.0.abs() <= SMALL {
             return odd_series(self, 1.0);
         }
-        let (growing, falling) = (Scalar::exp(self), Scalar::exp(-self));
-        (growing - falling) * Quad::from(0.5)
+        let half = multiple_of_exp(0.5, Scalar::abs(self));
+        let size = if half.0 > LARGE { half } else { half - Quad::from(0.25) / half };
+        size.copysign(self)
     }
     fn cosh(self) -> Self {
-        let (growing, falling) = (Scalar::exp(self), Scalar::exp(-self));
-        (growing + falling) * Quad::from(0.5)
+        let half = multiple_of_exp(0.5, Scalar::abs(self));
+        if half.0 > LARGE { half } else { half + Quad::from(0.25) / half }
     }
     fn tanh(self) -> Self {
-        let less = (-(Scalar::abs(self) + Scalar::abs(self))).exp_m1();
+        let less = (-scaled(Scalar::abs(self), 1)).exp_m1();
         (-less / (less + Quad::from(2.0))).copysign(self)
     }
     fn asinh(self) -> Self {
         let value = Quad::from(libm::asinh(self.0));
         if value.0 == 0.0 || !value.0.is_finite() {
             return value;
+        }
+        if self.0.abs() > LARGE {
+            return (Scalar::ln(Scalar::abs(self)) + Quad::LN_2).copysign(self);
         }
         value - (Scalar::sinh(value) - self) / Scalar::cosh(value)
     }
@@ -131,11 +150,28 @@ fn series(z: Quad, d: u32) -> Quad {
     })
 }
 
-/// How many quarters of a turn an angle has, modulo 4, and the rest, at most an eighth; to `2^-106` of the angle.
+/// `2^exponent x`.
+fn scaled(x: Quad, exponent: i32) -> Quad {
+    Quad(libm::scalbn(x.0, exponent), libm::scalbn(x.1, exponent))
+}
+
+/// `factor exp(x)` of a factor of at most 1; not by the exponential itself, which ends before doubles do.
+fn multiple_of_exp(factor: f64, x: Quad) -> Quad {
+    let root = libm::exp(0.5 * x.0);
+    let size = factor * root * root;
+    if size == 0.0 || !size.is_finite() {
+        return Quad::from(size);
+    }
+    let root = Quad::exp(scaled(x, -1));
+    Quad::from(factor) * root * root
+}
+
+/// How many quarters of a turn an angle has, modulo 4, and the rest, at most an eighth; to `2^-106` of the angle, and NaN where
+/// they are too many to be counted.
 fn quarters(angle: Quad) -> (u32, Quad) {
     let quarter = Quad::PI * Quad::from(0.5);
     let count = libm::rint((angle / quarter).0);
-    let rest = angle - quarter * Quad::from(count);
+    let rest = if count.abs() > MOST_QUARTERS { Quad::NAN } else { angle - quarter * Quad::from(count) };
     (libm::fmod(libm::fmod(count, 4.0) + 4.0, 4.0) as u32, rest)
 }
 
@@ -280,6 +316,22 @@ mod tests {
         ("asinh", 2.0, 1.4436354751788103, 4.124885142212745e-17),
         ("asinh", 77.5, 5.043466737629791, -3.3229645656042943e-16),
         ("asinh", 1e200, 461.2101657793691, -2.3993297946353776e-14),
+        ("exp", -600.0, 2.6503965530043108e-261, 6.377342817491395e-278),
+        ("exp", 709.0, 8.218407461554972e+307, -1.955965507696277e+291),
+        ("exp", 709.78, 1.7928227943945155e+308, 8.276293660642251e+291),
+        ("exp_m1", 709.0, 8.218407461554972e+307, -1.955965507696277e+291),
+        ("exp_m1", -709.5, -1.0, 0.0),
+        ("sinh", 45.0, 1.7467135528742547e+19, 218.01739861670305),
+        ("sinh", -710.4, -1.6663642832806496e+308, -6.844817567326341e+290),
+        ("cosh", 45.0, 1.7467135528742547e+19, 218.01739861670305),
+        ("cosh", -709.0, 4.109203730777486e+307, -9.779827538481386e+290),
+        ("cosh", 710.4, 1.6663642832806496e+308, 6.844817567326341e+290),
+        ("ln", 1e+308, 709.1962086421661, -1.3557607434536328e-14),
+        ("ln", 1e-308, -709.1962086421661, 1.3477913123503017e-14),
+        ("ln", 1.000000001, 1.000000082240371e-09, -7.801400238815362e-27),
+        ("ln", 5e-324, -744.4400719213812, -4.422444340918698e-14),
+        ("ln_1p", 1e+308, 709.1962086421661, -1.3557607434536328e-14),
+        ("asinh", -1.7976931348623157e+308, -710.475860073944, 3.5071590463208723e-14),
     ];
 
     #[test]
@@ -292,6 +344,53 @@ mod tests {
                 // Some ten roundings of 1e-32; scaling by powers of two costs the exponential a few more.
                 assert!(error < 2e-30, "{name}({x}): {error:e}");
             }
+        }
+    }
+
+    /// Where values leave the range of doubles they are infinite, zero or one.
+    #[test]
+    fn beyond_the_range() {
+        let infinite = Quad::INFINITY;
+        for x in [710.0, 1e6, f64::MAX, f64::INFINITY].map(Quad::from) {
+            assert_eq!([Scalar::exp(x), x.exp_m1()], [infinite; 2], "{x:?}");
+            let falling = [Scalar::exp(scaled(-x, 1)), (-x).exp_m1(), Scalar::tanh(-x)];
+            assert_eq!(falling.map(Real::to_f64), [0.0, -1.0, -1.0], "{x:?}");
+        }
+        for x in [711.0, 1e6, f64::MAX, f64::INFINITY].map(Quad::from) {
+            assert_eq!([Scalar::cosh(x), Scalar::cosh(-x), Scalar::sinh(x)], [infinite; 3], "{x:?}");
+            assert_eq!(Scalar::sinh(-x), -infinite, "{x:?}");
+        }
+        let (zero, below) = (Quad::ZERO, Quad::from(-1e-300));
+        assert_eq!([Scalar::ln(infinite), Scalar::ln_1p(infinite), -Scalar::ln(zero)], [infinite; 3]);
+        assert!(
+            [Scalar::ln(below), Scalar::ln(Quad::NAN), Scalar::exp(Quad::NAN)].iter().all(|v| v.0.is_nan())
+        );
+    }
+
+    /// Sine and cosine of large angles, computed with 60 digits, and none of larger ones.
+    #[test]
+    fn large_angles() {
+        for (angle, sine, cosine) in [
+            (100000.0, 0.03574879797201651, -0.9993608074382124),
+            (-1000000000000000.0, -0.8582727931702359, -0.5131937377869703),
+            (1.4e+16, -0.9525296565795657, -0.3044458134650805),
+        ] {
+            let error = |value: Quad, expected: f64| (value.0 - expected).abs();
+            let x = Quad::from(angle);
+            assert!(
+                error(Scalar::sin(x), sine) < angle * 2e-32 + 2e-16,
+                "sin({angle:e}): {:?}",
+                Scalar::sin(x)
+            );
+            assert!(
+                error(Scalar::cos(x), cosine) < angle * 2e-32 + 2e-16,
+                "cos({angle:e}): {:?}",
+                Scalar::cos(x)
+            );
+        }
+        for angle in [1.5e16, -1e17, 1e18, 1e22, 1e300, f64::MAX, f64::INFINITY].map(Quad::from) {
+            let values = [Scalar::sin(angle), Scalar::cos(angle), Scalar::tan(angle)];
+            assert!(values.iter().all(|value| value.0.is_nan()), "{angle:?}: {values:?}");
         }
     }
 

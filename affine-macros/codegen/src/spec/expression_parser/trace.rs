@@ -65,7 +65,8 @@ impl Parser<'_> {
             },
         };
         if words.degree > LARGEST_DEGREE {
-            let mistake = ExpressionMistake::Degree { degree: words.degree, limit: LARGEST_DEGREE };
+            let mistake =
+                ExpressionMistake::Degree { degree: words.degree.to_string(), limit: LARGEST_DEGREE };
             return Err(self.found.report(part.span, mistake));
         }
         Ok(words)
