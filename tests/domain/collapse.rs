@@ -221,3 +221,35 @@ fn a_flat_body_that_bounces_goes_on() {
     assert!(flattest < 1.5e-4, "{flattest:e}");
     assert!(run.statistics().steps > 1024, "{:?}", run.statistics());
 }
+
+/// A free conformal body in the plane shrinks to a point, where its determinant has a zero without a change of sign. Taylor steps
+/// are in the space around the group, and say so.
+#[test]
+fn a_conformal_body_shrinks_to_a_point() {
+    #[affine_model(
+        dim = 2,
+        constraint = conformal,
+        kinetic(dalembert = 1),
+        dissipation(dalembert = r),
+        emit(taylor)
+    )]
+    struct Shrinking {
+        r: f64,
+    }
+    let (phi, taylor) = (Matrix::<2>::identity(), Method::Taylor { order: None });
+    for r in [0.0, 0.5] {
+        let model = Shrinking { r }.prepare().unwrap();
+        let start = model.at_velocity(phi, -phi).unwrap();
+        // `a' = -exp(-r t)`
+        let exact = if r == 0.0 { 1.0 } else { -(1.0 - r).ln() / r };
+        for tolerance in [1e-6, 1e-10, 1e-13] {
+            let run =
+                |t_end: f64| Simulation::new(&model, start).until(t_end).tolerance(tolerance).method(taylor);
+            let halt = run(10.0).run().unwrap_err();
+            let Reason::Placement { t, .. } = halt.stop.reason else { panic!("{halt}") };
+            assert!((t - exact).abs() < 100.0 * tolerance.max(1e-8), "{tolerance:e}: {halt}");
+            let why = run(0.5).run().unwrap().why().to_string();
+            assert!(why.contains("phi leaves it by the error"), "{why}");
+        }
+    }
+}

@@ -9,7 +9,7 @@ use super::friction::is_followed;
 use super::mechanics::Mechanics;
 use super::method::Method;
 use super::motion::Motion;
-use super::orientation::{Moment, keeps_orientation, passes_through_zero};
+use super::orientation::{Moment, keeps_orientation, steps_through_zero};
 use super::pace::{Pace, likeness};
 use super::point::check;
 use super::signature::Signature;
@@ -50,7 +50,7 @@ impl<const N: usize> Guard<N> {
             is_followed(asked.0, || model.rate_of_friction(since, start))?;
         }
         let signature = Signature::of(model.regularity(start.phi()));
-        let (passes, description) = (passes_through_zero(model.description()), model.description());
+        let (passes, description) = (steps_through_zero(model.description(), asked.0), model.description());
         has_value(model, (since, start))?;
         // The state is not expanded for a body that is asked for neither.
         let at = (passes || !description.domain.is_empty()).then(|| (motion.t(), motion.reached().0));

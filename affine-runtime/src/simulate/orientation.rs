@@ -2,19 +2,27 @@
 
 use super::layout::{carries_dilatation, is_free_in_pi};
 use super::mechanics::Mechanics;
+use super::method::Method;
 use super::motion::WithWork;
 use super::point::{check, determinant};
 use crate::error::Reason;
 use crate::frames::Matrix;
 use crate::inner::LogDeterminant;
 use crate::inner::{norm, sum_of_squares};
-use crate::model::Description;
+use crate::model::{Constraint, Description};
 use crate::state::Phase;
 
 /// Nothing in the equations of a body in a flat metric stops at `det phi = 0` unless its potential knows `q`; then the forces
 /// are singular there, and steps do not get past.
 pub(super) const fn passes_through_zero(model: &Description) -> bool {
     is_free_in_pi(model) && !carries_dilatation(model)
+}
+
+/// Taylor steps of a conformal body are in the space around its group, where nothing stops at `phi = 0` either.
+pub(super) fn steps_through_zero(model: &Description, method: Method) -> bool {
+    let leaves_its_group =
+        matches!(method, Method::Taylor { .. }) && model.constraint == Some(Constraint::Conformal);
+    leaves_its_group || passes_through_zero(model)
 }
 
 /// A placement may change within a part of a step by so much of itself; by all of itself it could lose its orientation.

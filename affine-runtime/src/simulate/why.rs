@@ -230,6 +230,9 @@ impl Why {
             Method::Splitting { .. } | Method::AdaptiveSplitting { .. } => {
                 writeln!(f, "the flows that move phi are exponentials: it stays on the group up to rounding")
             }
+            Method::Taylor { .. } => {
+                writeln!(f, "steps in the space around the group: phi leaves it by the error of the steps")
+            }
             _ => writeln!(f, "steps on {chart} around the placement: phi stays on the group up to rounding"),
         }
     }
