@@ -25,8 +25,8 @@ fn methods_that_the_model_does_not_have() {
     let driven = Driven.at_velocity(strained(), sheared()).unwrap();
     assert_eq!(
         said(&Driven, driven, Method::Taylor { order: None }),
-        "Driven was not given `taylor`: write `emit(taylor)` in its `#[affine_model(...)]`, or use \
-         Method::Automatic, which takes what there is"
+        "Driven was not given `taylor`: write `emit(taylor)` in its `#[affine_model(...)]`, which the compiler refuses where \
+         such a model cannot have it, or use Method::Automatic, which takes what there is"
     );
     assert!(said(&Driven, driven, Method::RungeKuttaNystrom8).contains("`emit(nystrom)`"));
     let drop = Drop.at_velocity(Matrix::identity(), Matrix::<2>::new(0.3, 1.0, -0.5, -0.3)).unwrap();

@@ -260,8 +260,8 @@ impl fmt::Display for Setting {
             ),
             Setting::NotEmitted { model, key } => write!(
                 f,
-                "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, or use \
-                 Method::Automatic, which takes what there is"
+                "{model} was not given `{key}`: write `emit({key})` in its `#[affine_model(...)]`, which the compiler refuses where \
+                 such a model cannot have it, or use Method::Automatic, which takes what there is"
             ),
             Setting::EventIndex { event, index } => {
                 write!(
