@@ -157,3 +157,30 @@ fn values_of_fields_are_checked() {
     let text = Conformal { a: 1.0, b: -0.5, c: 1.0 }.prepare().unwrap_err().to_string();
     assert!(text.contains("casimir2 + n casimir1_squared != 0"), "{text}");
 }
+
+/// Whether an inertia from fields is positive does not depend on the units of mass and length: its minors are held against their
+/// own terms.
+#[test]
+fn an_inertia_from_fields_has_any_unit() {
+    macro_rules! holds {
+        ($($name:ident: $dim:literal, [$($key:ident = $group:ident,)?] $j:tt)*) => { $({
+            #[affine_model(dim = $dim, $($key = $group,)? kinetic(dalembert = $j, body_inertia = a))]
+            #[allow(dead_code, reason = "a planar body has no third axis")]
+            struct $name {
+                a: f64,
+                b: f64,
+                c: f64,
+            }
+            let is_well_posed = |a: f64, b: f64, c: f64| $name { a, b, c }.prepare().is_ok();
+            for unit in [1e-30, 1e-16, 5e-9, 1e-3, 1.0, 1e9, 1e16, 1e30] {
+                assert!(is_well_posed(unit, 0.7 * unit, 0.4 * unit), "{}, {unit:e}", stringify!($name));
+                assert!(!is_well_posed(unit, -0.7 * unit, 0.4 * unit), "{}, {unit:e}", stringify!($name));
+            }
+        })* };
+    }
+    holds! {
+        Incompressible: 3, [constraint = isochoric,] [[a, b/10, 0], [b/10, b, 0], [0, 0, c]]
+        Conformal: 3, [constraint = conformal,] [[a, b/10, 0], [b/10, b, 0], [0, 0, c]]
+        Planar: 2, [constraint = isochoric,] [[a, b/10], [b/10, b]]
+    }
+}

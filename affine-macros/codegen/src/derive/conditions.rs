@@ -51,7 +51,7 @@ pub(super) fn conditions(
     if let Some(inertia) = inertia.filter(|_| !dalembert) {
         let minors = leading_minors(arena, inertia).into_iter();
         list.extend(
-            minors.map(|minor| (Factor::Eigenvalue("a leading minor of J"), "a row of phi_dot", true, minor)),
+            minors.map(|minor| (Factor::Minor("a leading minor of J"), "a row of phi_dot", true, minor)),
         );
     }
     let condition = |(factor, directions, positive, value)| {

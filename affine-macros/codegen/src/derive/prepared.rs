@@ -66,11 +66,17 @@ pub(super) fn in_order(bases: Option<Preparation>, mut checks: Vec<Step>) -> Vec
     checks
 }
 
-/// What must not vanish: eigenvalues share one threshold, a mass has its own.
+/// What must not vanish: eigenvalues share one threshold, masses another, and each minor has its own.
 pub(super) fn well_posed(conditions: Vec<Condition>) -> impl Iterator<Item = Step> {
-    let of_mass = |condition: &Condition| matches!(condition.factor, Factor::Mass(_));
-    let (masses, eigenvalues): (Vec<_>, Vec<_>) = conditions.into_iter().partition(of_mass);
-    [eigenvalues, masses].into_iter().filter(|conditions| !conditions.is_empty()).map(Step::WellPosed)
+    let mut steps = vec![Vec::new(), Vec::new()];
+    for condition in conditions {
+        match condition.factor {
+            Factor::Eigenvalue(_) => steps[0].push(condition),
+            Factor::Mass(_) => steps[1].push(condition),
+            Factor::Minor(_) => steps.push(vec![condition]),
+        }
+    }
+    steps.into_iter().filter(|conditions| !conditions.is_empty()).map(Step::WellPosed)
 }
 
 /// What `prepare()` has to find not negative in the dissipation.

@@ -19,20 +19,23 @@ pub struct Condition {
     pub program: Program,
 }
 
-/// A factor between velocities and momenta, by name: all eigenvalues share a threshold, a mass has its own.
+/// A factor between velocities and momenta, by name: all eigenvalues share a threshold, masses have another, and a minor, whose
+/// unit is that of no other, its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
     /// `I + A`.
     Eigenvalue(&'static str),
     /// `m`, `1/m`.
     Mass(&'static str),
+    /// A leading minor of `J`.
+    Minor(&'static str),
 }
 
 impl Factor {
     /// The name in messages of `prepare()`, without what it is a factor of.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Eigenvalue(name) | Self::Mass(name) => name,
+            Self::Eigenvalue(name) | Self::Mass(name) | Self::Minor(name) => name,
         }
     }
 }
