@@ -2,7 +2,8 @@
 
 use crate::dual::Dual;
 use crate::frames::{Matrix, Vector};
-use crate::model::{Model, StateVector};
+use crate::inner::projected;
+use crate::model::{Constraint, Model, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -10,8 +11,8 @@ use crate::state::Phase;
 /// Slawianowski et al., whose brackets of affine spins have this sign; see the errata of the guide for one that has not).
 ///
 /// `F` and `G` are functions of the point in numbers with a derivative, whatever the frame of the model. `{F, H}` is the rate of
-/// `F` along the flow where no force acts that has no potential. The bracket is that of all of phase space: a constraint
-/// confines motions, not functions. A body without translation has `x = p = 0`.
+/// `F` along the flow where no force acts that has no potential. Under a constraint the bracket is that of the phase space of its
+/// group: functions see the momentum that the group has, whose variations are projected. A body without translation has `x = p = 0`.
 ///
 /// ```
 /// use affine_runtime::bracket::poisson_bracket;
@@ -41,7 +42,8 @@ pub fn poisson_bracket<const N: usize, M: Model<N>, T: Real>(
     let entries = model.flatten(point);
     full.as_mut().iter_mut().zip(entries.as_ref()).for_each(|(both, entry)| *both = Dual::fixed(*entry));
     let point = model.unflatten(&full);
-    let (f, g) = (gradient(&point, f), gradient(&point, g));
+    let constraint = M::DESCRIPTION.constraint;
+    let (f, g) = (gradient(constraint, &point, f), gradient(constraint, &point, g));
     f.paired_with(&g) - g.paired_with(&f)
 }
 
@@ -62,6 +64,7 @@ impl<const N: usize, T: Real> Coordinates<N, T> {
 }
 
 fn gradient<const N: usize, T: Real, P: Phase<N, Dual<T>>>(
+    constraint: Option<Constraint>,
     point: &P,
     f: impl Fn(&P) -> Dual<T>,
 ) -> Coordinates<N, T> {
@@ -70,7 +73,9 @@ fn gradient<const N: usize, T: Real, P: Phase<N, Dual<T>>>(
         let mut varied = here;
         along(&mut varied).slope = T::one();
         let Coordinates { x, p, phi, pi } = varied;
-        f(&point.with_canonical(phi, pi, x, p)).slope
+        let varied = point.with_canonical(phi, pi, x, p);
+        let confined = constraint.map(|own| varied.moved(x, phi, |spin| projected(own, spin)));
+        f(&confined.unwrap_or(varied)).slope
     };
     Coordinates {
         x: Vector::<N, T>::from_fn(|i, _| slope(&|varied| &mut varied.x[i])),

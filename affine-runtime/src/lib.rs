@@ -145,7 +145,6 @@ pub mod capability {
 mod inner {
     pub(crate) use affine_core::__private::far_from_undeformed;
     pub(crate) use affine_core::__private::numerics::*;
-    #[cfg(feature = "analysis")]
     pub(crate) use affine_core::__private::projected;
     #[cfg(feature = "std")]
     pub(crate) use affine_core::__private::{Unconstrained, gathered, on_the_group};

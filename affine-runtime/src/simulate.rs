@@ -94,4 +94,4 @@ pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
 #[cfg(feature = "report")]
-pub(crate) use settings::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE};
+pub(crate) use settings::DEFAULT_TOLERANCE;

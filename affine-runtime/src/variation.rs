@@ -1,7 +1,7 @@
 //! The variational equations: how a motion changes with its start.
 
 use crate::dual::Dual;
-use crate::inner::{norm, sound};
+use crate::inner::{DEFAULT_MAX_STEPS, norm, sound};
 use crate::integrate::{Failure, RungeKutta8};
 use crate::model::{Group, Model, StateVector};
 use crate::scalar::Scalar;
@@ -16,7 +16,7 @@ use crate::scalar::Scalar;
 pub trait Tangent<const N: usize>: Model<N> {
     /// The reduced state, then its change.
     type Varied<T: Scalar>: StateVector<T>;
-    /// Layout of both, for the norm of errors: the change is one group.
+    /// Layout of both, for the norm of errors: the change is one group, beside that of the work.
     const VARIED: &'static [Group];
 
     /// Time derivatives of state and change. The slopes of the constants are their derivatives along the direction.
@@ -110,11 +110,8 @@ impl<'a, const N: usize, M: Tangent<N>> Variation<'a, N, M> {
         sound(self.t, t, self.tolerance)?;
         let rates =
             |t: f64, state: &M::Varied<f64>| self.model.variational_equations(t, &self.constants, state);
-        let mut steps = RungeKutta8::new(rates, M::VARIED, (self.t, self.state), t, self.tolerance)?;
-        while !steps.is_finished() {
-            steps.advance()?;
-        }
-        let state = *steps.y();
+        let steps = RungeKutta8::new(rates, M::VARIED, (self.t, self.state), t, self.tolerance)?;
+        let state = steps.finish(DEFAULT_MAX_STEPS)?;
         (self.t, self.state) = (t, state);
         Ok(())
     }

@@ -3,7 +3,7 @@
 
 use affine_runtime::bracket::poisson_bracket;
 use affine_runtime::dual::Dual;
-use affine_runtime::model::StateVector;
+use affine_runtime::model::{Constraint, StateVector};
 use affine_runtime::prelude::*;
 use affine_runtime::scalar::Real;
 
@@ -111,7 +111,10 @@ fn jacobis_identity() {
 
 /// `{F, H}` is the derivative of `F` along Hamilton's equations.
 fn is_the_rate<const N: usize, M: Model<N>>(model: &M) {
-    let at = point::<N, M>(model);
+    is_the_rate_at(model, point::<N, M>(model));
+}
+
+fn is_the_rate_at<const N: usize, M: Model<N>>(model: &M, at: M::Point<f64>) {
     let full = model.flatten(&at);
     let rates = model.hamilton_equations(0.0, &full);
     let mut moving = M::Full::<Dual<f64>>::zeros();
@@ -135,4 +138,47 @@ fn the_bracket_with_the_energy_is_the_rate() {
     is_the_rate::<3, _>(&Left3);
     is_the_rate::<3, _>(&Right3);
     is_the_rate::<3, _>(&Flat3);
+}
+
+#[affine_model(dim = 2, constraint = rigid, kinetic(dalembert = 1/2), potential = phi[2,2])]
+struct Pendulum;
+#[affine_model(dim = 3, constraint = rigid, kinetic(dalembert = diag(1, 0.7, 0.4), space_translation = 2), potential = phi[3,3] + norm(x)^2)]
+struct Top;
+#[affine_model(dim = 3, constraint = isochoric, kinetic(body_inertia = diag(1, 0.7, 0.4)), potential = tr(G))]
+struct Fluid;
+#[affine_model(dim = 3, constraint = isochoric, kinetic(casimir2 = 0.2, space_inertia = 1), potential = Ct[1,2])]
+struct InSpace;
+#[affine_model(dim = 3, constraint = conformal, kinetic(body_inertia = 1, casimir2 = 0.2), potential = q^2)]
+struct Bubble;
+
+/// A point on the group of a constraint.
+fn confined<const N: usize, M: Model<N>>(model: &M, constraint: Constraint) -> M::Point<f64> {
+    let any = point::<N, M>(model);
+    let exponent = projected(constraint, &Matrix::<N>::from_fn(|i, a| number(N * i + a + 40)));
+    any.moved(any.x(), exponent.exponential(), |spin| projected(constraint, spin))
+}
+
+/// `P X` of the constraints.
+fn projected<const N: usize>(constraint: Constraint, x: &Matrix<N>) -> Matrix<N> {
+    let mean = Matrix::<N>::identity() * (x.trace() / N as f64);
+    let skew = (x - x.transpose()) / 2.0;
+    match constraint {
+        Constraint::Isochoric => x - mean,
+        Constraint::Rigid => skew,
+        Constraint::Conformal => skew + mean,
+    }
+}
+
+/// On groups likewise, where momenta are those of the group.
+#[test]
+fn the_bracket_of_a_group_is_the_rate() {
+    fn check<const N: usize, M: Model<N>>(model: &M) {
+        let constraint = M::DESCRIPTION.constraint.unwrap();
+        is_the_rate_at(model, confined(model, constraint));
+    }
+    check::<2, _>(&Pendulum);
+    check::<3, _>(&Top);
+    check::<3, _>(&Fluid);
+    check::<3, _>(&InSpace);
+    check::<3, _>(&Bubble);
 }

@@ -163,6 +163,17 @@ fn what_is_zero_but_for_rounding_begins_to_move() {
     assert!((run.y()[0] - 4.5).abs() < 1e-14, "{:?}", run.y());
 }
 
+/// An integration ends after as many steps as it may take, where a state that is rounding alone would ask for any number of them.
+#[test]
+fn steps_are_limited() {
+    const CHANGE: &[Group] = &[Group::new(Quantity::TangentVector, 1)];
+    let noise = |t: f64, _: &[f64; 1]| [(t * 1e20).sin()];
+    let run = || RungeKutta8::new(noise, CHANGE, (0.0, [0.0]), 1.0, 1e-9).unwrap();
+    assert_eq!(run().finish(2000), Err(Failure::StepLimit { limit: 2000 }));
+    let smooth = RungeKutta8::new(|_, y: &[f64; 1]| [y[0]], CHANGE, (0.0, [1.0]), 1.0, 1e-9).unwrap();
+    assert!((smooth.finish(2000).unwrap()[0] - 1.0_f64.exp()).abs() < 1e-8);
+}
+
 #[test]
 fn blow_up_stops_before_the_pole_and_keeps_the_state() {
     // y' = y^2, y = 1/(1 - t).

@@ -280,3 +280,74 @@ fn heavy_bodies_have_sensitivities() {
         assert!((by_velocity(mass) - &known).norm() < 1e-8 * known.norm(), "{mass:e}");
     }
 }
+
+/// Off the group of a constraint nothing decays, and rounding there does not outlast what does: `x'' = -x - 3 x'`, twice, and a body
+/// that turns as it likes.
+#[test]
+fn decay_under_constraints_has_exponents() {
+    #[affine_model(
+        dim = 2,
+        constraint = rigid,
+        kinetic(dalembert = 1/2, space_translation = 1),
+        potential = norm(x)^2/2,
+        dissipation(space_translation = 3)
+    )]
+    struct Bead;
+    let (x, v) = (Vector::<2>::new(0.1, 0.2), Vector::<2>::new(0.1, 0.1));
+    let start = Bead.at_velocity(x, Matrix::<2>::identity(), v, Matrix::<2>::zeros()).unwrap();
+    let spectrum = lyapunov_spectrum(&Bead, &start, 60.0, 1e-9).unwrap();
+    let sum: f64 = spectrum.exponents.iter().sum();
+    assert!((sum + 6.0).abs() < 1e-6, "{spectrum:?}");
+    let fast = -(3.0 + 5.0_f64.sqrt()) / 2.0;
+    for k in 4..6 {
+        assert!((spectrum.exponents[k] - fast).abs() < 0.1, "{spectrum:?}");
+    }
+}
+
+/// A field that has no effect but by rounding does not shorten steps.
+#[test]
+fn fields_without_effect_have_sensitivities() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1), potential = tr((G - 1)^2)/4 + c*G[1,2]^2)]
+    struct Sheared {
+        c: f64,
+    }
+    let fields = Sheared { c: 0.4 };
+    let model = fields.prepare().unwrap();
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let turn = Matrix::<2>::new(cos, -sin, sin, cos);
+    let along = |a: f64, b: f64| turn * Matrix::<2>::new(a, 0.0, 0.0, b);
+    let start = model.at_velocity(along(1.2, 0.9), along(0.2, -0.3)).unwrap();
+    for t in [1e-6, 1.0] {
+        let found = Sensitivities::of(&fields, &model, (0.0, &start), t, 1e-9).unwrap();
+        assert!(found.by_fields.norm() < 1e-14, "{t}: {}", found.by_fields);
+    }
+}
+
+/// Nor do columns that have decayed to nothing: `x'' = -x - 3 x'` over a time after which they are below all numbers.
+#[test]
+fn decay_to_nothing_has_a_flow() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = ((phi[1,1] - 1)^2 + phi[1,2]^2 + phi[2,1]^2 + (phi[2,2] - 1)^2)/2,
+        dissipation(dalembert = 3)
+    )]
+    struct Damped;
+    let start = Damped.at_velocity(Matrix::<2>::new(1.1, 0.1, -0.2, 0.9), Matrix::<2>::zeros()).unwrap();
+    let mut flow = FlowMatrix::new(&Damped, (0.0, &start), 1e-9);
+    flow.advance_to(1930.0).unwrap();
+    assert!(flow.matrix().norm() < 1e-150, "{}", flow.matrix());
+}
+
+/// `x'' = x` from rest at the top: columns grow to `exp(t)/2`, whose square is no number.
+#[test]
+fn growth_has_a_defect() {
+    #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = tr(G)/2 - ln(det) - norm(x)^2/2)]
+    struct Hill;
+    let (x, still) = (Vector::<2>::zeros(), Matrix::<2>::zeros());
+    let start = Hill.at_velocity(x, Matrix::<2>::identity() * 1.1, x, still).unwrap();
+    let mut flow = FlowMatrix::new(&Hill, (0.0, &start), 1e-9);
+    flow.advance_to(400.0).unwrap();
+    assert!((flow.matrix()[(0, 0)].ln() - (400.0 - 2.0_f64.ln())).abs() < 1e-4);
+    assert!(flow.defect() < 1e-6, "{}", flow.defect());
+}

@@ -329,3 +329,27 @@ fn bad_tolerances_are_refused() {
         assert_eq!(given.to_bits(), tolerance.to_bits());
     }
 }
+
+/// `x'' = -(x - 1) - 3 x'`: changes decay to any length beside the change of the work, which tends to a constant.
+#[test]
+fn decay_has_its_exponent() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1),
+        potential = ((phi[1,1] - 1)^2 + phi[1,2]^2 + phi[2,1]^2 + (phi[2,2] - 1)^2)/2,
+        dissipation(dalembert = 3),
+        emit(tangent)
+    )]
+    struct Held;
+    let start = Held.at_velocity(Matrix::<2>::new(1.1, 0.1, -0.2, 0.9), Matrix::<2>::zeros()).unwrap();
+    let mut direction = [0.0; 8];
+    direction[0] = 1.0;
+    let mut variation = Variation::new(&Held, (0.0, &start), &direction, 1e-9).unwrap();
+    variation.advance_to(300.0).unwrap();
+    let root = 5.0_f64.sqrt();
+    let (slow, fast) = ((-3.0 + root) / 2.0, (-3.0 - root) / 2.0);
+    let known = (fast * (slow * 300.0).exp() - slow * (fast * 300.0).exp()) / (fast - slow);
+    let found = variation.change()[0];
+    assert!((found / known - 1.0).abs() < 1e-4, "{found:e} {known:e}");
+    assert!((variation.exponent() - slow).abs() < 1e-3, "{}", variation.exponent());
+}

@@ -9,6 +9,9 @@ use super::{Failure, Statistics};
 use affine_core::__private::Vectors;
 use affine_core::model::StateVector;
 
+/// Steps of an integration that names no limit.
+pub const DEFAULT_MAX_STEPS: u64 = 1_000_000;
+
 /// A method whose steps are as long as a tolerance allows.
 pub trait AdaptiveMethod {
     /// What is integrated.
@@ -152,6 +155,21 @@ impl<M: AdaptiveMethod> Adaptive<M> {
         let stepped = self.method.step(&mut self.control);
         self.control.failure = stepped.err();
         stepped
+    }
+
+    /// The state at the end, by at most so many steps.
+    ///
+    /// # Errors
+    /// [`Failure`]: [`Failure::StepLimit`] where these do not reach it.
+    #[doc(hidden)]
+    pub fn finish(mut self, limit: u64) -> Result<M::State, Failure> {
+        while !self.is_finished() {
+            if self.control.statistics.steps == limit {
+                return Err(Failure::StepLimit { limit });
+            }
+            self.advance()?;
+        }
+        Ok(*self.y())
     }
 
     /// The state at a time within the last step; the state reached where no step has been taken.

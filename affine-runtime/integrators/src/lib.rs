@@ -56,7 +56,7 @@ pub mod __private {
 
     /// What runs use.
     pub mod runs {
-        pub use crate::drive::{AdaptiveMethod, Control, EqualStepMethod};
+        pub use crate::drive::{AdaptiveMethod, Control, DEFAULT_MAX_STEPS, EqualStepMethod};
         pub use crate::equal_steps::{parts, step_count};
         #[cfg(feature = "std")]
         pub use crate::lanes::equations::Equations;
@@ -117,6 +117,12 @@ pub enum Failure {
         /// End of the interval.
         t_end: f64,
     },
+    /// The end of the interval is not reached within as many steps: rounding keeps the error above the tolerance, or the interval is
+    /// long.
+    StepLimit {
+        /// That many.
+        limit: u64,
+    },
 }
 
 /// An interval that steps come to the end of, and a tolerance that they can be held against.
@@ -160,6 +166,9 @@ impl fmt::Display for Failure {
                 t0 = Time(*t0),
                 t_end = Time(*t_end)
             ),
+            Failure::StepLimit { limit } => {
+                write!(f, "the end of the interval is not reached in {limit} steps")
+            }
         }
     }
 }

@@ -5,21 +5,25 @@ use core::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{full, normals, symplectic_form, vector};
-use super::generator::place;
+use super::field::{Kinds, full, normals, symplectic_form, vector};
 use super::jacobian::JacobianMatrix;
 use super::linear::{RANK, decomposed, from_columns, kernel};
 use crate::dual::{Dual, fixed};
+use crate::inner::DEFAULT_MAX_STEPS;
 use crate::integrate::RungeKutta8;
 use crate::model::{Group, Model, Quantity};
 use crate::parametric::{Fields, Parametric};
 
-/// Components of the largest state with a matrix of as many columns.
-const COMPONENTS: usize = 24 * 25;
+/// Components of the largest state with a matrix of as many columns, and what these are held against at the least.
+const COMPONENTS: usize = 24 * 25 + 1;
+/// That, where columns fall below all numbers that have their digits.
+const LEAST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+/// That of columns by fields, in roundings of the start over the tolerance: a field that has no effect leaves as much.
+const ROUNDINGS: f64 = 16.0;
 /// The least number of times that columns are made orthonormal, and the largest.
 const ROUNDS: (f64, f64) = (128.0, 1e9);
 
-/// A state, then its columns one after the other.
+/// A state, then its columns one after the other; last a constant that is measured with them.
 type Wide = [f64; COMPONENTS];
 
 /// Groups of a state, then one of all columns.
@@ -74,25 +78,19 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
         let start = vector(&model.flatten(point));
         let mut flow = Self { model, jacobian, start, t, state: Box::new([0.0; COMPONENTS]), tolerance };
         flow.state[..flow.start.len()].copy_from_slice(flow.start.as_slice());
-        flow.set(&DMatrix::identity(flow.start.len(), flow.start.len()));
+        flow.set(&DMatrix::identity(flow.start.len(), flow.start.len()), LEAST);
         flow
     }
 
-    fn set(&mut self, columns: &DMatrix<f64>) {
+    fn set(&mut self, columns: &DMatrix<f64>, least: f64) {
         self.state[self.start.len()..].fill(0.0);
         self.state[self.start.len()..][..columns.len()].copy_from_slice(columns.as_slice());
+        self.state[COMPONENTS - 1] = least;
     }
 
     fn columns(&self, count: usize) -> DMatrix<f64> {
         let own = self.start.len();
         DMatrix::from_column_slice(own, count, &self.state[own..own * (count + 1)])
-    }
-
-    /// Where positions are in the plain array.
-    fn positions(&self) -> Vec<usize> {
-        let at =
-            |quantity, len: usize| place(&M::DESCRIPTION, quantity).map_or(0..0, |start| start..start + len);
-        at(Quantity::Position, N).chain(at(Quantity::Placement, N * N)).collect()
     }
 
     /// Moves to a time, forward or backward.
@@ -121,11 +119,8 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
             slope[own..].iter_mut().zip(forced.iter()).for_each(|(slope, forced)| *slope += forced);
             slope
         };
-        let mut steps = RungeKutta8::new(slope, groups, (self.t, *self.state), end, self.tolerance)?;
-        while !steps.is_finished() {
-            steps.advance()?;
-        }
-        *self.state = *steps.y();
+        let steps = RungeKutta8::new(slope, groups, (self.t, *self.state), end, self.tolerance)?;
+        *self.state = steps.finish(DEFAULT_MAX_STEPS)?;
         self.t = end;
         Ok(())
     }
@@ -133,7 +128,12 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
     /// The phase point.
     #[must_use]
     pub fn point(&self) -> M::Point<f64> {
-        self.model.unflatten(&full::<N, M>(&DVector::from_column_slice(&self.state[..self.start.len()])))
+        self.model.unflatten(&full::<N, M>(&self.z()))
+    }
+
+    /// Its plain array.
+    fn z(&self) -> DVector<f64> {
+        DVector::from_column_slice(&self.state[..self.start.len()])
     }
 
     /// `M`: the derivative of component `i` by component `k` of the start in row `i` and column `k`.
@@ -146,10 +146,11 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
     /// constraint leaves: rounding and tolerance where the motion is Hamiltonian.
     #[must_use]
     pub fn defect(&self) -> f64 {
-        let z = vector(&self.model.flatten(&self.point()));
-        let basis = kernel(&normals(self.model, &self.start), RANK);
-        let (before, moved) = (symplectic_form(self.model, &self.start), self.matrix() * &basis);
-        let after = symplectic_form(self.model, &z);
+        let [before, after] = [&self.start, &self.z()].map(|z| symplectic_form(self.model, z));
+        let matrix = self.matrix();
+        // Before it is squared, what has grown.
+        let basis = kernel(&normals(self.model, &self.start), RANK).unscale(matrix.camax().max(1.0));
+        let moved = matrix * &basis;
         let difference = moved.tr_mul(&after) * &moved - basis.tr_mul(&before) * &basis;
         difference.norm() / (moved.norm_squared() * after.norm())
     }
@@ -185,9 +186,11 @@ impl Sensitivities {
         tolerance: f64,
     ) -> Result<Self, AnalysisError> {
         let values = fields.values();
+        // By parts of a field that is not zero: all columns have the units of the state.
+        let unit = |k: usize| Some(values.as_ref()[k].abs()).filter(|unit| *unit > 0.0).unwrap_or(1.0);
         let varied = (0..values.as_ref().len()).map(|k| {
             let mut varied: F::Values<Dual<f64>> = fixed(values.as_ref());
-            varied.as_mut()[k].slope = 1.0;
+            varied.as_mut()[k].slope = unit(k);
             F::coefficients_of(&varied)
         });
         let coefficients = varied.collect::<Result<Vec<_>, _>>()?;
@@ -200,16 +203,16 @@ impl Sensitivities {
         // As many at once as the state has components.
         for coefficients in coefficients.chunks(own) {
             let mut flow = FlowMatrix::new(model, (t0, point), tolerance);
-            flow.set(&DMatrix::zeros(0, 0));
+            flow.set(&DMatrix::zeros(0, 0), ROUNDINGS * f64::EPSILON / tolerance * flow.start.norm());
             flow.advance(t, |t, z| forced(coefficients, t, z.as_ref()))?;
             by_fields.extend(flow.columns(coefficients.len()).column_iter().map(|one| one.into_owned()));
         }
-        let by_fields = from_columns(own, &by_fields);
+        let mut by_fields = from_columns(own, &by_fields);
         let start = flow.start.as_slice();
         // Places and velocities by the plain array, and that by these.
         let mut both = flow.jacobian.at(t0, start).insert_rows(0, own, 0.0);
         both.rows_mut(0, own).fill_with_identity();
-        let places = flow.positions();
+        let places = Kinds::of::<N, F::Prepared>().places;
         let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
         let inverse = inverse(both.select_rows(&rows), places.len())?;
         // Bases in which the metrics are the identity change with them, and a place and a velocity that are held change in these.
@@ -226,7 +229,10 @@ impl Sensitivities {
         flow.advance_to(t)?;
         let by_start = flow.matrix();
         let by_velocity = &by_start * inverse;
-        let by_fields_at_velocity = &by_fields + &by_velocity * held;
+        let mut by_fields_at_velocity = &by_fields + &by_velocity * held;
+        for by in [&mut by_fields, &mut by_fields_at_velocity] {
+            by.column_iter_mut().enumerate().for_each(|(k, mut column)| column.unscale_mut(unit(k)));
+        }
         Ok(Self { by_start, by_velocity, by_fields, by_fields_at_velocity })
     }
 }
@@ -297,9 +303,11 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     let count = columns.ncols();
     let (mut sums, mut half) = (DVector::<f64>::zeros(count), DVector::<f64>::zeros(count));
     for round in 1..=rounds as usize {
-        flow.set(&columns);
+        flow.set(&columns, LEAST);
         flow.advance_to(time * round as f64 / rounds)?;
-        let decomposition = flow.columns(count).qr();
+        // Off the group nothing falls, and what rounding leaves there would outlast what does.
+        let basis = kernel(&normals(model, &flow.z()), RANK);
+        let decomposition = (&basis * basis.tr_mul(&flow.columns(count))).qr();
         sums += decomposition.r().diagonal().map(|entry| entry.abs().ln());
         columns = decomposition.q();
         if 2 * round <= rounds as usize {

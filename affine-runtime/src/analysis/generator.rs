@@ -10,7 +10,7 @@ use crate::dual::{Dual, fixed};
 use crate::frames::{Matrix, Vector};
 use crate::inner::projected;
 use crate::metrics::Bases;
-use crate::model::{Conserved, Description, Entry, Model, Quantity, StateVector};
+use crate::model::{Conserved, Entry, Model, Quantity, StateVector};
 use crate::scalar::Real;
 use crate::state::Phase;
 
@@ -119,11 +119,10 @@ impl<const N: usize> Generator<N> {
         let drift = self.drift.map(|entry| T::constant(entry, 0.0));
         let point = model.orthonormal(&model.unflatten(full));
         let (phi, x, p) = (*point.phi(), point.x(), point.p());
-        let has = |quantity| place(&M::DESCRIPTION, quantity).is_some();
-        let (spin, spin_rate) = if has(Quantity::CanonicalMomentum) {
+        let (spin, spin_rate) = if has::<N, M>(Quantity::CanonicalMomentum) {
             let pi = point.pi().0.0;
             (pi, -(pi * space + body * pi))
-        } else if has(Quantity::AffineSpin) {
+        } else if has::<N, M>(Quantity::AffineSpin) {
             let sigma = point.sigma().0.0;
             (sigma, space * sigma - sigma * space)
         } else {
@@ -151,10 +150,9 @@ pub(super) fn bases<const N: usize, M: Model<N>>(model: &M) -> Bases<N> {
     model.bases().unwrap_or_else(|| Bases::of_factors((one, one), (one, one)))
 }
 
-/// Where a quantity begins in the plain array.
-pub(super) fn place(model: &Description, quantity: Quantity) -> Option<usize> {
-    let index = model.full.iter().position(|group| group.quantity == quantity)?;
-    Some(model.full[..index].iter().map(|group| group.len).sum())
+/// A quantity stands in the plain array.
+fn has<const N: usize, M: Model<N>>(quantity: Quantity) -> bool {
+    M::DESCRIPTION.full.iter().any(|group| group.quantity == quantity)
 }
 
 /// `E_ji - E_ij`, numbered from 1.
@@ -208,7 +206,7 @@ pub(super) fn confined<const N: usize, M: Model<N>>(generator: &Generator<N>) ->
         M::DESCRIPTION.constraint.map_or(*matrix, |constraint| projected(constraint, matrix))
     };
     let (space, body) = (kept(&generator.space), kept(&generator.body));
-    match place(&M::DESCRIPTION, Quantity::Position).is_some() {
+    match has::<N, M>(Quantity::Position) {
         true => Generator { space, body, ..*generator },
         false => Generator { space, body, ..Generator::zero() },
     }

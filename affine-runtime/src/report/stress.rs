@@ -9,8 +9,9 @@ use super::method_name;
 use super::stability::{Demand, Finding, Oracle, Scene, StabilityReport};
 use super::work_precision::has_tolerance;
 use crate::error::{Error, Result};
+use crate::inner::DEFAULT_MAX_STEPS;
 use crate::model::{Conserved, Model, Quantity};
-use crate::simulate::{DEFAULT_MAX_STEPS, DEFAULT_TOLERANCE, Method, Simulation};
+use crate::simulate::{DEFAULT_TOLERANCE, Method, Simulation};
 
 const DEFAULT_TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 const DEFAULT_SPEEDS: [f64; 4] = [1e-6, 1e-3, 1e3, 1e6];

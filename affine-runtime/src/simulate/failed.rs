@@ -17,5 +17,6 @@ pub(super) fn failed(failure: Failure, (method, tolerance): (Method, f64), model
         Failure::Time { given } => Setting::Time { name: "an end of the interval", given }.into(),
         Failure::Tolerance { given } => Setting::Tolerance { given }.into(),
         Failure::Step { given, t0, t_end } => Setting::Step { given, t0, t_end }.into(),
+        Failure::StepLimit { limit } => Reason::StepLimit { limit },
     }
 }

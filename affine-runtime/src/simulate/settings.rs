@@ -9,7 +9,7 @@ use super::method::Method;
 use super::output::{Output, Schedule};
 use super::progress::{Observe, Watch};
 use crate::error::Setting;
-use crate::inner::{HIGHEST_ORDER, LOWEST_ORDER, Sweeps, step_count};
+use crate::inner::{DEFAULT_MAX_STEPS, HIGHEST_ORDER, LOWEST_ORDER, Sweeps, step_count};
 use crate::integrate::gauss::Tableau;
 use crate::integrate::rattle::Composition;
 use crate::model::{Constraint, Description};
@@ -21,8 +21,6 @@ pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-10;
 /// larger error leads motions onto such a placement that only pass near it. `cargo test --test sums near_degenerate` holds random
 /// bodies picked for that: with steps of this tolerance all go through, but one that passes a pivot below ten tolerances.
 pub(super) const NEAR_DEGENERATE: f64 = 1e-6;
-/// Steps of a simulation that names no limit.
-pub(crate) const DEFAULT_MAX_STEPS: u64 = 1_000_000;
 
 /// The finest tolerance: about four roundings.
 const FINEST_TOLERANCE: f64 = 1e-15;

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::ir::Program;
-use crate::symbol::{Aspect, Symbol};
+use crate::symbol::{Aspect, Quantity, Symbol};
 
 use super::body::Body;
 use super::context::{Coefficients, Context};
@@ -21,6 +21,11 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let groups = each(context, &context.model.dynamics.reduced.groups);
     let states = context.model.dynamics.reduced.symbols();
     let (len, both) = (number(states.len()), number(2 * states.len()));
+    // Nothing depends on the work, which stands last: its change is not measured, as it is not itself.
+    let reduced = &context.model.dynamics.reduced.groups;
+    let work: Vec<_> = reduced.iter().filter(|(quantity, _)| *quantity == Quantity::Work).cloned().collect();
+    let unmeasured = each(context, &work);
+    let measured = number(states.len() - work.iter().map(|(_, symbols)| symbols.len()).sum::<usize>());
     let equations = match &variational.program {
         Some(program) => by_program(context, program, states),
         None => by_duals(context, &len),
@@ -28,7 +33,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let items = quote! {
         type Varied<#t: #rt::Scalar> = [#t; #both];
         const VARIED: &'static [#rt::Group] =
-            &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #len)];
+            &[#(#groups,)* #rt::Group::new(#rt::Quantity::TangentVector, #measured), #(#unmeasured),*];
 
         #[inline]
         #equations
