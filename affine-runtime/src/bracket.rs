@@ -12,7 +12,7 @@ use crate::state::Phase;
 ///
 /// `F` and `G` are functions of the point in numbers with a derivative, whatever the frame of the model. `{F, H}` is the rate of
 /// `F` along the flow where no force acts that has no potential. Under a constraint the bracket is that of the phase space of its
-/// group: functions see the momentum that the group has, whose variations are projected. A body without translation has `x = p = 0`.
+/// group, to which momenta are projected before functions see them. A body without translation has `x = p = 0`.
 ///
 /// ```
 /// use affine_runtime::bracket::poisson_bracket;

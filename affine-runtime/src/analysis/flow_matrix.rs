@@ -173,7 +173,8 @@ pub struct Sensitivities {
 }
 
 impl Sensitivities {
-    /// Those of the motion that passes through a point at `t0`. The tolerance bounds the relative error of each step.
+    /// Those of the motion that passes through a point at `t0`. The tolerance bounds the relative error of each step, but for
+    /// roundings of the start: by a field without effect there is nothing that an error could be relative to.
     ///
     /// # Errors
     /// [`AnalysisError::Model`] where coefficients have no derivative, [`AnalysisError::Integration`],

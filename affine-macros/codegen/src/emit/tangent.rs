@@ -18,12 +18,12 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
     let Some(variational) = &context.model.methods.tangent else { return TokenStream::new() };
     let rt = &context.names.rt;
     let t = &context.names.scalar;
-    let groups = each(context, &context.model.dynamics.reduced.groups);
-    let states = context.model.dynamics.reduced.symbols();
+    let reduced = &context.model.dynamics.reduced;
+    let (groups, states) = (each(context, &reduced.groups), reduced.symbols());
     let (len, both) = (number(states.len()), number(2 * states.len()));
     // Nothing depends on the work, which stands last: its change is not measured, as it is not itself.
-    let reduced = &context.model.dynamics.reduced.groups;
-    let work: Vec<_> = reduced.iter().filter(|(quantity, _)| *quantity == Quantity::Work).cloned().collect();
+    let work = reduced.groups.iter().filter(|(quantity, _)| *quantity == Quantity::Work);
+    let work: Vec<_> = work.cloned().collect();
     let unmeasured = each(context, &work);
     let measured = number(states.len() - work.iter().map(|(_, symbols)| symbols.len()).sum::<usize>());
     let equations = match &variational.program {
