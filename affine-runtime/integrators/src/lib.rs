@@ -117,10 +117,10 @@ pub enum Failure {
         /// End of the interval.
         t_end: f64,
     },
-    /// The end of the interval is not reached within as many steps: rounding keeps the error above the tolerance, or the interval is
-    /// long.
+    /// The end of the interval is not reached within a number of steps: rounding keeps the error above the tolerance, or the
+    /// interval is long.
     StepLimit {
-        /// That many.
+        /// The largest number of steps.
         limit: u64,
     },
 }

@@ -27,8 +27,8 @@ const PROPORTIONAL: f64 = 0.3;
 const TREND_FROM: f64 = -9.0;
 /// Smaller errors, zero among them, count as this, which allows the largest growth.
 const LEAST_ERROR: f64 = 1e-30;
-/// After each step so much is left of the time that errors of momenta are held against. A short contact, of some hundred steps
-/// at the most, is measured by the flight before it; a body that goes on vibrating, by its vibrations.
+/// After each step so much is left of the time that errors of momenta are held against. A short contact, of up to a hundred
+/// steps, is measured by the flight before it; a body that goes on vibrating, by its vibrations.
 const LASTING: f64 = 0.98;
 /// The error of a first step, relative to the tolerance, by rates in place of derivatives. The coefficients of the
 /// error terms of methods of high order are so small that it errs far less.
@@ -47,7 +47,7 @@ pub(crate) struct Controller {
     /// Logarithm of the previous error.
     pub(super) previous: f64,
     pub(super) rejected: bool,
-    /// How long steps were.
+    /// The longest of the steps before, each shortened by [`LASTING`] for every step since.
     pub(crate) lasting: f64,
 }
 

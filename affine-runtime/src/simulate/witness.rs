@@ -9,10 +9,11 @@ use crate::state::Phase;
 
 /// A run ends where the energy is off by so much of the largest `|T| + |U|` met.
 const LOST: f64 = 0.1;
-/// A run that conserves energy ends too where that is off by so much of `|T| + |U|`, both at the start and now, and by more than
-/// the tolerance is worth where these were largest, or by a hundredth of that: after a singularity there is less of them than near
-/// it.
+/// A run that conserves energy ends too where that is off by so much of `|T| + |U|`, both of what there is now and of what there
+/// was at the start: near a singularity there is more, of which a tenth may be all that is left afterwards.
 const SPENT: f64 = 0.5;
+/// By less of the largest `|T| + |U|` met than this, or than [`RESOLVED`] tolerances if these are less, no energy is lost so: a
+/// body may come to where it has hardly any.
 const FAR: f64 = 0.01;
 /// So many tolerances off, the energy is named in what is said of a run.
 const WORTH_NAMING: f64 = 1e4;

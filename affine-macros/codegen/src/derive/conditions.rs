@@ -50,9 +50,7 @@ pub(super) fn conditions(
     }
     if let Some(inertia) = inertia.filter(|_| !dalembert) {
         let minors = leading_minors(arena, inertia).into_iter();
-        list.extend(
-            minors.map(|minor| (Factor::Minor("a leading minor of J"), "a row of phi_dot", true, minor)),
-        );
+        list.extend(minors.map(|minor| (Factor::Minor, "a row of phi_dot", true, minor)));
     }
     let condition = |(factor, directions, positive, value)| {
         Condition::of(arena, (factor, directions), (Relation::MomentumOfVelocity, positive), &value)

@@ -73,7 +73,7 @@ pub(super) fn well_posed(conditions: Vec<Condition>) -> impl Iterator<Item = Ste
         match condition.factor {
             Factor::Eigenvalue(_) => steps[0].push(condition),
             Factor::Mass(_) => steps[1].push(condition),
-            Factor::Minor(_) => steps.push(vec![condition]),
+            Factor::Minor => steps.push(vec![condition]),
         }
     }
     steps.into_iter().filter(|conditions| !conditions.is_empty()).map(Step::WellPosed)

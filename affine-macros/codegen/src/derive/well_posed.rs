@@ -28,14 +28,15 @@ pub enum Factor {
     /// `m`, `1/m`.
     Mass(&'static str),
     /// A leading minor of `J`.
-    Minor(&'static str),
+    Minor,
 }
 
 impl Factor {
     /// The name in messages of `prepare()`, without what it is a factor of.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Eigenvalue(name) | Self::Mass(name) | Self::Minor(name) => name,
+            Self::Eigenvalue(name) | Self::Mass(name) => name,
+            Self::Minor => "a leading minor of J",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Times in messages.
+//! How messages write times: those of a run may be of any size, and 300 digits are not read.
 
 use core::fmt;
 

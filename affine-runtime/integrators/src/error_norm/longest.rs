@@ -7,8 +7,8 @@ use affine_core::__private::numerics::{IN_RANGE, norm, square};
 impl ErrorNorm {
     /// `ln h` of the longest `h` with `|c| h^j <= tolerance s_g` for each group `g` of two coefficients `c`, given with their
     /// orders `j`, at a state `y`; `s_g = max(|g|, 0.1 mu_g/h)` as in [`ErrorNorm`], so that there are bounds of `h^j` and of
-    /// `h^(j + 1)`, the latter where `h` is longer than errors last by themselves. Time is measured in a `unit`. Infinite where
-    /// nothing bounds it, NaN where a coefficient is none.
+    /// `h^(j + 1)`. In steps shorter than `lasting` errors of momenta are held against `0.1 mu_g/lasting`. Time is measured in a
+    /// `unit`. Infinite where nothing bounds it, NaN where a coefficient is none.
     #[inline(always)]
     pub(crate) fn longest(
         &self,

@@ -96,7 +96,7 @@ impl<P: Pair, S: StateVector<f64>> OneStep<P, S> {
             self.stages[number - 1] = newest;
         }
         let rise = P::rise(self, f);
-        // Rounded once.
+        // One product with the length, whose rounding is that of the whole sum.
         self.y_trial = f.plus_multiple(&self.y, self.length(), &rise);
         rise
     }

@@ -18,7 +18,7 @@ pub(crate) struct Clocks<T> {
     previous: T,
     /// 1 after a rejected step, or 0.
     rejected: T,
-    /// How long steps were.
+    /// The longest of the steps before, each shortened for every step since.
     pub(crate) lasting: T,
     /// Before the first step.
     fresh: Controller,
