@@ -131,3 +131,71 @@ fn a_change_is_no_loss() {
     assert_eq!(run.events().len(), 1);
     assert!(run.computation().energy_defect < 1e-6);
 }
+
+/// A force sets in at a kink, `f = max(0, t - t_1)^k`, on a body at rest: within the step there is hardly any energy yet, and what is
+/// lost of that is no more than the tolerance lets a momentum lose.
+#[test]
+fn a_force_that_sets_in_is_no_loss() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = orthogonality(1) - (ramp*(abs(t - t_1) + t - t_1)/2 + square*((abs(t - t_1) + t - t_1)/2)^2)*x[1]
+    )]
+    struct Pushed {
+        ramp: f64,
+        square: f64,
+        t_1: f64,
+    }
+    for t_1 in [0.123456, 0.5, 0.51234, 1.7] {
+        for (ramp, square) in [(1.0, 0.0), (0.0, 1.0)] {
+            let pushed = Pushed { ramp, square, t_1 }.prepare().unwrap();
+            let (zero, phi, still) = (Vector::<2>::zeros(), Matrix::identity(), Matrix::zeros());
+            let start = pushed.at_velocity(zero, phi, zero, still).unwrap();
+            let late = 4.0 - t_1;
+            let exact = ramp * late.powi(2) / 2.0 + square * late.powi(3) / 3.0;
+            for method in [Method::Automatic, Method::RungeKutta5] {
+                for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+                    let run = Simulation::new(&pushed, start).until(4.0).tolerance(tolerance).method(method);
+                    let label = format!("{ramp} {square} from {t_1}, {method:?} at {tolerance:e}");
+                    let run = run.run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+                    let error = (run.end().1.p()[0] - exact).abs() / exact;
+                    assert!(error < 100.0 * tolerance, "{label}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Viscous bodies under a slow load `sin(w t)`, whose energies are far below the work that goes through them: the placement is as
+/// near as the tolerance, and that is all that steps longer than the friction tell.
+#[test]
+fn slow_viscous_bodies_lose_nothing() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        dissipation(space_translation = r),
+        potential = orthogonality(1) - sin(w*t)*x[1]
+    )]
+    struct Dragged {
+        r: f64,
+        w: f64,
+    }
+    let t = 5.0_f64;
+    for r in [1e3, 1e4, 1e5, 1e6] {
+        for w in [0.5_f64, 1.0, 2.0, 5.0] {
+            let dragged = Dragged { r, w }.prepare().unwrap();
+            let (zero, phi, still) = (Vector::<2>::zeros(), Matrix::identity(), Matrix::zeros());
+            let start = dragged.at_velocity(zero, phi, zero, still).unwrap();
+            // The integral of (r sin(w t) - w cos(w t) + w exp(-r t))/(r^2 + w^2).
+            let exact = (r / w * (1.0 - (w * t).cos()) - (w * t).sin() + w / r) / (r * r + w * w);
+            for tolerance in [1e-3, 1e-4, 1e-6, 1e-8, 1e-10] {
+                let run = Simulation::new(&dragged, start).until(t).tolerance(tolerance);
+                let label = format!("{r:e} {w} at {tolerance:e}");
+                let run = run.run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
+                let error = (run.end().1.x()[0] - exact).abs();
+                assert!(error < 10.0 * tolerance, "{label}: {error:e}");
+                assert!(!run.why().to_string().contains("energy is off"), "{label}: {}", run.why());
+            }
+        }
+    }
+}

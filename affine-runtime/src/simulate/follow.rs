@@ -91,6 +91,7 @@ impl<const N: usize, P: Phase<N>> Recorder<'_, '_, N, P> {
             guard.advance(model, motion)?;
             let t = motion.t();
             self.turned((begin, t));
+            self.witness.iter_mut().for_each(|witness| witness.stepped((t - begin).abs()));
             let stands = guard.stands(model, motion, (self.t_end, self.max_steps - self.steps));
             let until = match stands {
                 Err(Reason::Placement { t, .. }) => {

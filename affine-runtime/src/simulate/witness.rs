@@ -20,6 +20,9 @@ const WORTH_NAMING: f64 = 1e4;
 /// No energy ends a run that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
 /// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run.
 const RESOLVED: f64 = 10.0;
+/// Steps follow friction that takes velocities away no more than so often, by powers of e, within one of them, as explicit ones do.
+/// What it takes within longer ones is known to the tolerance of the placement, beside which the energy of slow bodies is small.
+const FOLLOWED: f64 = 6.4;
 /// Nothing is said at all of one that a change of the placement by so much of itself is worth, at which the rounding of an energy may hide what is
 /// quadratic in the change.
 const ROUNDING: f64 = 1e-7;
@@ -36,6 +39,8 @@ pub(super) struct Witness {
     /// Largest `|H - W - before|` met, relative to the scale then, of those that are worth naming.
     worst: f64,
     tolerance: Option<f64>,
+    /// Lengths of the last two steps.
+    steps: [f64; 2],
 }
 
 impl Witness {
@@ -49,7 +54,17 @@ impl Witness {
     ) -> Self {
         let before = is_accounted_for(model).then_some(energy.value - work);
         let first = if is_conserved(model) { energy.size() } else { f64::INFINITY };
-        Self { before, scale: larger(scale, energy.size()), first, worst: 0.0, tolerance }
+        Self { before, scale: larger(scale, energy.size()), first, worst: 0.0, tolerance, steps: [0.0; 2] }
+    }
+
+    /// A step was taken.
+    pub(super) fn stepped(&mut self, length: f64) {
+        self.steps = [length, self.steps[0]];
+    }
+
+    /// About how long steps are: the last one may have been cut.
+    fn step(&self) -> f64 {
+        larger(self.steps[0], 0.5 * self.steps[1])
     }
 
     /// Largest `|T| + |U|` met.
@@ -104,17 +119,40 @@ impl Witness {
         if defect <= self.named() * self.scale && !is_spent {
             return Ok(());
         }
-        let is_worth = |reach: f64| defect <= worth(model, (t, point), energy, reach);
+        let is_worth = |reach: f64| {
+            defect <= worth(model, (t, point), energy, reach) + self.worth_of_momenta(point, reach)
+        };
         let is_lost = defect > LOST * self.scale || is_spent;
         let is_allowed =
             is_worth(self.tolerance.map_or(ROUNDING, |tolerance| ROUNDING.max(RESOLVED * tolerance)));
-        if !is_allowed || (is_lost && !is_worth(ROUNDING)) {
-            self.worst = larger(self.worst, defect / self.scale);
+        if is_allowed && (!is_lost || is_worth(ROUNDING)) || self.passes_over_friction(model, (t, point)) {
+            return Ok(());
         }
+        self.worst = larger(self.worst, defect / self.scale);
         match self.tolerance.is_some() && is_lost && !is_allowed {
             true => Err(Reason::EnergyLost { defect, scale: self.scale, t }),
             false => Ok(()),
         }
+    }
+
+    /// What the energy changes by where the momenta are off by what moves the body by a part of its size within a step, in a motion
+    /// that forces begin: within the step in which they set in the body may have hardly any energy else.
+    fn worth_of_momenta<const N: usize, P: Phase<N>>(&self, point: &P, reach: f64) -> f64 {
+        let (placed, deformed) = (norm(point.x().as_slice()), norm(point.phi().as_slice()));
+        let momenta =
+            norm(point.pi().0.0.as_slice()) * deformed + norm(point.p().as_slice()) * (placed + deformed);
+        let step = self.step();
+        if self.first.is_finite() || step == 0.0 { 0.0 } else { reach * momenta / step }
+    }
+
+    /// Are steps by a tolerance longer than what they follow of a friction?
+    fn passes_over_friction<const N: usize, P: Phase<N>>(
+        &self,
+        model: &dyn Mechanics<N, P>,
+        (t, point): (f64, &P),
+    ) -> bool {
+        let is_passed_over = |rate: f64| rate * self.step() > FOLLOWED;
+        self.tolerance.is_some() && model.rate_of_friction(t, point).is_some_and(is_passed_over)
     }
 }
 
