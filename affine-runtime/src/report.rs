@@ -101,15 +101,6 @@ fn method_name(method: Method) -> &'static str {
     }
 }
 
-/// Comma-separated values, with quotation marks where a field needs them.
-fn csv_lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    // Lines of one length, written to memory: there is nothing that fails.
-    let written = lines.into_iter().try_for_each(|line| writer.write_record(line));
-    let bytes = written.map_err(drop).and_then(|()| writer.into_inner().map_err(drop));
-    bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
-}
-
 /// Writes a file.
 fn save(path: &Path, contents: &str) -> Result<()> {
     std::fs::write(path, contents)

@@ -6,13 +6,11 @@ mod by_radau;
 mod by_rattle;
 mod checkpoint;
 mod choice;
-#[cfg(feature = "csv")]
 mod chunks;
 mod closed_form;
 mod collapse;
 mod conservation;
 mod course;
-#[cfg(feature = "csv")]
 mod csv;
 mod cubic;
 mod dense;
@@ -28,7 +26,6 @@ mod fingerprint;
 mod flow;
 mod flows;
 mod follow;
-#[cfg(feature = "csv")]
 mod format;
 mod friction;
 mod guard;
@@ -55,7 +52,6 @@ mod recorder;
 mod root;
 mod round_trip;
 mod run;
-#[cfg(feature = "csv")]
 mod saved;
 mod settings;
 mod signature;
@@ -81,7 +77,6 @@ pub use ensemble::{Ends, Ensemble, Member};
 pub use event::{Event, Occurrence};
 pub use flow::Flow;
 pub use flows::Flows;
-#[cfg(feature = "csv")]
 pub use format::Format;
 pub use method::Method;
 pub use outcome::{Halt, Outcome};
@@ -93,5 +88,7 @@ pub use table::Table;
 pub use trajectory::{Computation, Trajectory};
 pub use why::Why;
 
+#[cfg(feature = "report")]
+pub(crate) use csv::csv_line;
 #[cfg(feature = "report")]
 pub(crate) use settings::DEFAULT_TOLERANCE;

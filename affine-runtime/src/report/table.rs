@@ -5,8 +5,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::work_precision::{Measurement, Row, WorkPrecisionReport};
-use super::{csv_lines, method_name, save};
+use super::{method_name, save};
 use crate::error::Result;
+use crate::simulate::csv_line;
 
 impl WorkPrecisionReport {
     /// The rows as comma-separated values, below a line of names: `model`, `method`, `tolerance`, `error_...` for
@@ -32,7 +33,7 @@ impl WorkPrecisionReport {
             "stopped",
         ];
         head.extend(rest.map(str::to_owned));
-        csv_lines(core::iter::once(head).chain(self.rows().iter().map(|row| self.fields(row))))
+        core::iter::once(head).chain(self.rows().iter().map(|row| self.fields(row))).map(csv_line).collect()
     }
 
     /// Writes [`to_csv`](Self::to_csv) to a file.

@@ -1,6 +1,5 @@
 //! Where a run was interrupted, as numbers from which it goes on with the same bits.
 
-#[cfg(feature = "csv")]
 mod line;
 mod numbers;
 

@@ -1,9 +1,7 @@
 //! Tables and trajectories as comma-separated values.
 
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
-
-use csv::Writer;
 
 use super::format::Format;
 use super::table::{Columns, Table};
@@ -17,10 +15,10 @@ impl Table {
     /// # Errors
     /// Those of the writer.
     pub fn csv(&self, writer: impl Write) -> io::Result<()> {
-        let mut lines = Writer::from_writer(writer);
-        lines.write_record(self.names())?;
+        let mut lines = BufWriter::new(writer);
+        lines.write_all(csv_line(self.names()).as_bytes())?;
         for row in 0..self.len() {
-            lines.write_record(self.row(row).map(number))?;
+            lines.write_all(csv_line(self.row(row).map(number)).as_bytes())?;
         }
         lines.flush()
     }
@@ -50,13 +48,13 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     /// Those of the writer.
     pub fn events_csv(&self, writer: impl Write) -> io::Result<()> {
         let columns = Columns::<N, P>::of(self.description);
-        let mut lines = Writer::from_writer(writer);
+        let mut lines = BufWriter::new(writer);
         let head = ["event", "rising", "t"].map(str::to_owned);
-        lines.write_record(head.into_iter().chain(columns.names()))?;
+        lines.write_all(csv_line(head.into_iter().chain(columns.names())).as_bytes())?;
         for event in self.events() {
             let head = [event.name.to_owned(), event.rising.to_string(), number(event.t)];
-            lines
-                .write_record(head.into_iter().chain(columns.values(&event.point).into_iter().map(number)))?;
+            let point = columns.values(&event.point).into_iter().map(number);
+            lines.write_all(csv_line(head.into_iter().chain(point)).as_bytes())?;
         }
         lines.flush()
     }
@@ -65,4 +63,21 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
 /// The shortest decimals that read back as the same double.
 fn number(value: f64) -> String {
     format!("{value:e}")
+}
+
+/// A line of fields, of which those stand in quotation marks that would not be read as they are (RFC 4180): with a comma, a quotation
+/// mark or an end of a line in them.
+pub(crate) fn csv_line(fields: impl IntoIterator<Item = impl AsRef<str>>) -> String {
+    let mut line = String::new();
+    for field in fields {
+        let field = field.as_ref();
+        match field.contains([',', '"', '\n', '\r']) {
+            true => line.extend(["\"", &field.replace('"', "\"\""), "\","]),
+            false => line.extend([field, ","]),
+        }
+    }
+    // Each field has a comma behind it.
+    line.pop();
+    line.push('\n');
+    line
 }

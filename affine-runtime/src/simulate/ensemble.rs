@@ -6,7 +6,6 @@ mod chosen;
 mod ends;
 mod part;
 mod recording;
-#[cfg(feature = "csv")]
 mod saved;
 
 use core::fmt;

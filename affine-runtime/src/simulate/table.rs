@@ -146,7 +146,6 @@ impl Table {
     }
 
     /// The numbers of a row.
-    #[cfg(feature = "csv")]
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = f64> {
         self.columns.iter().map(move |column| column.get(row).copied().unwrap_or(f64::NAN))
     }

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::{Demand, Finding, StabilityCase, StabilityReport, Verdict};
 use crate::error::Result;
-use crate::report::{csv_lines, save};
+use crate::report::save;
+use crate::simulate::csv_line;
 
 impl StabilityReport {
     /// The cases as comma-separated values below a line of names: `heading`, `model`, `n`, `scene`, `quantity`, `oracle`,
@@ -35,7 +36,7 @@ impl StabilityReport {
                 stopped,
             ]
         });
-        csv_lines(core::iter::once(head.map(str::to_owned).to_vec()).chain(rows))
+        core::iter::once(head.map(str::to_owned).to_vec()).chain(rows).map(csv_line).collect()
     }
 
     /// Writes [`to_csv`](Self::to_csv) to a file.
