@@ -1,6 +1,8 @@
 //! Short contacts between long flights: what a body has of its momentum afterwards.
 
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 
 /// A wall at `x_1 = 0`, steeper the larger `k` is.
 #[affine_model(
@@ -94,6 +96,64 @@ fn a_body_at_rest_takes_up_a_force() {
                     error < 100.0 * tolerance.max(1e-13),
                     "{t_1}, {method:?} at {tolerance:e}: {error:e}"
                 );
+            }
+        }
+    }
+}
+
+/// A spring below `x_2 = 0`, which does not pull.
+#[derive(Clone, Copy)]
+struct Ground {
+    k: f64,
+}
+
+impl Force<2> for Ground {
+    type Form = Translation;
+
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        let depth = (-motion.x[1]).max(T::zero());
+        Vector::<2, T>::new(T::zero(), T::constant(self.k, 0.0) * depth)
+    }
+}
+
+/// A height that falls from 1 with unit weight, and what the ground makes of it: parabolas and parts of `-1/k + A cos(w s + a)`.
+fn bouncing(k: f64, t: f64) -> f64 {
+    let (fall, speed, w) = (2.0_f64.sqrt(), 2.0_f64.sqrt(), k.sqrt());
+    let contact = (core::f64::consts::TAU - 2.0 * (speed * w).atan()) / w;
+    let since = t.rem_euclid(2.0 * fall + contact);
+    let (down, up) = (since - fall, since - fall - contact);
+    if down < 0.0 {
+        1.0 - since * since / 2.0
+    } else if up < 0.0 {
+        ((w * down).cos() - 1.0) / k - speed / w * (w * down).sin()
+    } else {
+        speed * up - up * up / 2.0
+    }
+}
+
+/// Contacts of a body that bounces begin anywhere within a step, behind its last kick too.
+#[test]
+fn contacts_begin_within_steps() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        potential = orthogonality(1) + x[2],
+        forces = custom(ground, translation, position),
+        emit(splitting)
+    )]
+    struct Ball {
+        ground: Ground,
+    }
+    for k in [1e2, 1e4, 1e6] {
+        let ball = Ball { ground: Ground { k } }.prepare().unwrap();
+        let (phi, phi_dot) = (Matrix::<2>::new(1.1, 0.1, 0.0, 0.95), Matrix::<2>::new(0.1, -0.3, 0.4, 0.0));
+        let start = ball.at_velocity(Vector::<2>::new(0.0, 1.0), phi, Vector::zeros(), phi_dot).unwrap();
+        let halves = [4, 6, 8].map(|order| Method::AdaptiveSplitting { order: Some(order) });
+        for method in [Method::RungeKutta8].into_iter().chain(halves) {
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+                let run = Simulation::new(&ball, start).until(7.0).tolerance(tolerance).method(method);
+                let error = (run.output([]).run().unwrap().end().1.x()[1] - bouncing(k, 7.0)).abs();
+                assert!(error < 1e3 * tolerance, "k = {k:e}, {method:?} at {tolerance:e}: {error:e}");
             }
         }
     }

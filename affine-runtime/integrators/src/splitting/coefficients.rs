@@ -89,6 +89,8 @@ pub struct Sweeps {
     order: usize,
     /// Do sweeps begin with the last piece?
     from_last: bool,
+    /// Is it of its order for any pieces?
+    is_general: bool,
     count: usize,
     weights: [f64; MOST],
 }
@@ -99,10 +101,10 @@ impl Sweeps {
     pub fn of_order(order: usize, nystrom: bool) -> Option<Self> {
         match (order, nystrom) {
             (2, _) => Some(Self::of_steps(2, Composition::of_order(2)?)),
-            (4, false) => Some(Self::published(4, false, &S6)),
-            (4, true) => Some(Self::published(4, true, &SRKN6B)),
-            (6, false) => Some(Self::published(6, false, &S10)),
-            (6, true) => Some(Self::published(6, false, &SRKN14A)),
+            (4, false) => Some(Self::published((4, true), false, &S6)),
+            (4, true) => Some(Self::published((4, false), true, &SRKN6B)),
+            (6, false) => Some(Self::published((6, true), false, &S10)),
+            (6, true) => Some(Self::published((6, false), false, &SRKN14A)),
             (8, _) => Some(Self::of_steps(8, Composition::of_order(8)?)),
             _ => None,
         }
@@ -112,7 +114,7 @@ impl Sweeps {
     #[must_use]
     pub fn near_integrable(order: usize) -> Option<Self> {
         match order {
-            4 => Some(Self::published(4, false, &ABA104)),
+            4 => Some(Self::published((4, false), false, &ABA104)),
             _ => Self::of_order(order, true),
         }
     }
@@ -123,11 +125,11 @@ impl Sweeps {
         for (pair, weight) in weights.chunks_exact_mut(2).zip(composition.weights()) {
             pair.fill(0.5 * weight);
         }
-        Self { order, from_last: false, count: 2 * composition.steps(), weights }
+        Self { order, from_last: false, is_general: true, count: 2 * composition.steps(), weights }
     }
 
     /// From `c_1, ..., c_(s-1)` of a palindrome of `2s + 1` flows; those of each piece sum to 1.
-    fn published(order: usize, from_last: bool, first: &[f64]) -> Self {
+    fn published((order, is_general): (usize, bool), from_last: bool, first: &[f64]) -> Self {
         let sweeps = first.len() + 1;
         let sum = |parity: usize| first.iter().skip(parity).step_by(2).sum::<f64>();
         // The last two of the half: the one beside the middle, and the middle one, which counts once.
@@ -140,7 +142,14 @@ impl Sweeps {
             weights[j] = before;
             weights[2 * sweeps - 1 - j] = before;
         }
-        Self { order, from_last, count: 2 * sweeps, weights }
+        Self { order, from_last, is_general, count: 2 * sweeps, weights }
+    }
+
+    /// The composition that begins with the last piece in place of the first one, or the other way round, if it is of the same order: where
+    /// no commutator has to vanish.
+    #[must_use]
+    pub fn from_the_other_end(&self) -> Self {
+        Self { from_last: self.from_last != self.is_general, ..*self }
     }
 
     /// Order of the method.

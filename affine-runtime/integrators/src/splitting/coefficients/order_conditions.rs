@@ -63,14 +63,19 @@ fn assert_order(sweeps: &Sweeps, letters: usize) {
 #[test]
 fn two_pieces() {
     for order in [2, 4, 6, 8] {
-        assert_order(&Sweeps::of_order(order, false).unwrap(), 2);
+        let sweeps = Sweeps::of_order(order, false).unwrap();
+        assert_order(&sweeps, 2);
+        assert_ne!(sweeps.from_the_other_end(), sweeps);
+        assert_order(&sweeps.from_the_other_end(), 2);
     }
 }
 
 #[test]
 fn three_pieces() {
     for order in [2, 4, 6] {
-        assert_order(&Sweeps::of_order(order, false).unwrap(), 3);
+        let sweeps = Sweeps::of_order(order, false).unwrap();
+        assert_order(&sweeps, 3);
+        assert_order(&sweeps.from_the_other_end(), 3);
     }
 }
 
@@ -112,6 +117,7 @@ fn ideal(d: usize) -> Vec<Vec<f64>> {
 fn nystrom() {
     for order in [4, 6] {
         let sweeps = Sweeps::of_order(order, true).unwrap();
+        assert_eq!(sweeps.from_the_other_end(), sweeps, "the pieces do not change places");
         let series = Series::of(&sweeps, 2, order + 1);
         for d in 1..=order + 1 {
             let defect = series.defect(d);
