@@ -1,7 +1,9 @@
 //! The energy as a witness.
 
+use affine_runtime::force::{Force, Motion, Translation};
 use affine_runtime::model::Conserved;
 use affine_runtime::prelude::*;
+use affine_runtime::scalar::Scalar;
 use affine_runtime::simulate::Reason;
 
 #[affine_model(dim = 2, kinetic(dalembert = 1, space_translation = 1), potential = -1/norm(x))]
@@ -196,6 +198,57 @@ fn slow_viscous_bodies_lose_nothing() {
                 assert!(error < 10.0 * tolerance, "{label}: {error:e}");
                 assert!(!run.why().to_string().contains("energy is off"), "{label}: {}", run.why());
             }
+        }
+    }
+}
+
+/// A spring from the centre of mass to a point that goes round the unit circle once in a time of 2 pi.
+#[derive(Clone, Copy)]
+struct Anchor {
+    k: f64,
+}
+
+impl Force<2> for Anchor {
+    type Form = Translation;
+
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        let ((sine, cosine), k) = (motion.t.sin_cos(), T::constant(self.k, 0.0));
+        Vector::<2, T>::new(k * (cosine - motion.x[0]), k * (sine - motion.x[1]))
+    }
+}
+
+/// A body that is dragged for long through a viscous medium, by a work that goes on growing while its energies do not. In the steady
+/// motion `x_1 + i x_2 = k/(k - 1 + i r) exp(i t)`.
+#[test]
+fn a_work_that_goes_on_is_no_loss() {
+    #[affine_model(
+        dim = 2,
+        kinetic(dalembert = 1, space_translation = 1),
+        dissipation(space_translation = r),
+        potential = orthogonality(20),
+        forces = custom(anchor, translation),
+        emit(lanes)
+    )]
+    struct Dragged {
+        r: f64,
+        anchor: Anchor,
+    }
+    for (r, k) in [(3.0, 1e2), (10.0, 1e4)] {
+        let dragged = Dragged { r, anchor: Anchor { k } }.prepare().unwrap();
+        let size = (k - 1.0) * (k - 1.0) + r * r;
+        let (a, b) = (k * (k - 1.0) / size, -k * r / size);
+        let exact = |t: f64| Vector::<2>::new(a * t.cos() - b * t.sin(), a * t.sin() + b * t.cos());
+        let (phi, still) = (Matrix::identity(), Matrix::zeros());
+        let start = dragged.at_velocity(exact(0.0), phi, Vector::<2>::new(-b, a), still).unwrap();
+        for tolerance in [1e-3, 1e-4, 1e-5] {
+            let run = Simulation::new(&dragged, start).until(600.0).tolerance(tolerance).every(1.0);
+            let run = run.run().unwrap_or_else(|halt| panic!("{r} {k:e} at {tolerance:e}: {halt}"));
+            let errors = run.iter().map(|(t, point)| (point.x() - exact(t)).norm());
+            let worst = errors.fold(0.0, f64::max);
+            assert!(worst < tolerance, "{r} {k:e} at {tolerance:e}: {worst:e}");
+            let ends = Ensemble::new(&dragged, [start]).until(600.0).tolerance(tolerance).run().unwrap();
+            let error = (ends[0].as_ref().unwrap().x() - exact(600.0)).norm();
+            assert!(error < tolerance, "{r} {k:e} at {tolerance:e}, in lanes: {error:e}");
         }
     }
 }

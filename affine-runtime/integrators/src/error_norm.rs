@@ -34,7 +34,8 @@ const PART_OF_DISPLACEMENT: f64 = 0.1;
 ///   if these were longer. Without that, a body that vibrates by `1e-9` would need its momentum to digits that the forces do not
 ///   have, and one at rest would take ever shorter steps. By shorter steps alone a body would leave a wall with any momentum.
 ///
-/// `work`, which nothing depends on, is not measured: it is an integral over the rest, and as good as that.
+/// `work`, which nothing depends on, is not measured: it is an integral over velocities, and about as good as these. Stiff friction makes
+/// them small beside forces, and what it takes is then known less well than the placement.
 ///
 /// The inertia `mu_g` is found at the start from the equations themselves, as the least `|dg| |phi|/|d phi'|`
 /// over single components of `g` (with `x` in place of `phi` for the groups `p` and `p_hat`).

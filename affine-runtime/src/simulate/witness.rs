@@ -18,7 +18,8 @@ const FAR: f64 = 0.01;
 /// So many tolerances off, the energy is named in what is said of a run.
 const WORTH_NAMING: f64 = 1e4;
 /// No energy ends a run that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
-/// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run.
+/// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run. Of a work each
+/// step may lose that: it is integrated beside the motion, and goes on growing where the energy does not.
 const RESOLVED: f64 = 10.0;
 /// Steps follow friction that takes velocities away no more than so often, by powers of e, within one of them, as explicit ones do.
 /// What it takes within longer ones is known to the tolerance of the placement, beside which the energy of slow bodies is small.
@@ -39,8 +40,9 @@ pub(super) struct Witness {
     /// Largest `|H - W - before|` met, relative to the scale then, of those that are worth naming.
     worst: f64,
     tolerance: Option<f64>,
-    /// Lengths of the last two steps.
-    steps: [f64; 2],
+    /// Lengths of the last two steps, and how many there were.
+    lengths: [f64; 2],
+    steps: f64,
 }
 
 impl Witness {
@@ -54,17 +56,26 @@ impl Witness {
     ) -> Self {
         let before = is_accounted_for(model).then_some(energy.value - work);
         let first = if is_conserved(model) { energy.size() } else { f64::INFINITY };
-        Self { before, scale: larger(scale, energy.size()), first, worst: 0.0, tolerance, steps: [0.0; 2] }
+        Self {
+            before,
+            scale: larger(scale, energy.size()),
+            first,
+            worst: 0.0,
+            tolerance,
+            lengths: [0.0; 2],
+            steps: 0.0,
+        }
     }
 
     /// A step was taken.
     pub(super) fn stepped(&mut self, length: f64) {
-        self.steps = [length, self.steps[0]];
+        self.lengths = [length, self.lengths[0]];
+        self.steps += 1.0;
     }
 
     /// About how long steps are: the last one may have been cut.
     fn step(&self) -> f64 {
-        larger(self.steps[0], 0.5 * self.steps[1])
+        larger(self.lengths[0], 0.5 * self.lengths[1])
     }
 
     /// Largest `|T| + |U|` met.
@@ -120,7 +131,9 @@ impl Witness {
             return Ok(());
         }
         let is_worth = |reach: f64| {
-            defect <= worth(model, (t, point), energy, reach) + self.worth_of_momenta(point, reach)
+            let placed = worth(model, (t, point), energy, reach);
+            let in_a_step = placed + self.worth_of_momenta(point, reach);
+            defect <= if self.is_balanced() { self.steps * in_a_step } else { placed }
         };
         let is_lost = defect > LOST * self.scale || is_spent;
         let is_allowed =
@@ -142,7 +155,12 @@ impl Witness {
         let momenta =
             norm(point.pi().0.0.as_slice()) * deformed + norm(point.p().as_slice()) * (placed + deformed);
         let step = self.step();
-        if self.first.is_finite() || step == 0.0 { 0.0 } else { reach * momenta / step }
+        if step == 0.0 { 0.0 } else { reach * momenta / step }
+    }
+
+    /// The energy changes by a work, and is not conserved.
+    fn is_balanced(&self) -> bool {
+        self.first.is_infinite()
     }
 
     /// Are steps by a tolerance longer than what they follow of a friction?
