@@ -62,6 +62,8 @@ pub(super) struct Place {
     pub(super) recorded: bool,
     /// An event has set the centre of mass in motion.
     pub(super) moved: bool,
+    /// Bits of the time from which on another method took the motion because friction was stiff.
+    pub(super) stiff_since: Option<u64>,
 }
 
 impl Place {

@@ -12,7 +12,8 @@ const SIDES: [Side; 2] = [Side::Negative, Side::Positive];
 
 impl Place {
     pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
-        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded, moved } = self;
+        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded, moved, stiff_since } =
+            self;
         listed(from, 0, tape, |bits, tape| tape.bits(bits));
         let begun = Memory { standing: Standing::Open, changes: Changes::default() };
         listed(events, begun, tape, remembered);
@@ -24,6 +25,10 @@ impl Place {
         *met = count as usize;
         tape.flag(recorded);
         tape.flag(moved);
+        let (mut is_stiff, mut since) = (stiff_since.is_some(), stiff_since.unwrap_or_default());
+        tape.flag(&mut is_stiff);
+        tape.bits(&mut since);
+        *stiff_since = is_stiff.then_some(since);
     }
 
     /// A number by which it is known that none of it was changed.
