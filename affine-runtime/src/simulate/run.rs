@@ -171,7 +171,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let origin = checkpoint.place.origin(&self.settings.start);
         recorder.place = checkpoint.place;
         recorder.trajectory.computation.at_rest &= !recorder.place.moved;
-        recorder.trajectory.computation.stiff_since = recorder.place.stiff_since.map(f64::from_bits);
+        recorder.trajectory.computation.stiff_since = recorder.place.stiff_since();
         recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
@@ -208,7 +208,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             let cost = recorder.trajectory.statistics;
             let events = recorder.watcher.memory().to_vec();
             let moved = !recorder.trajectory.computation.at_rest;
-            let stiff_since = recorder.trajectory.computation.stiff_since.map(f64::to_bits);
+            let stiff_since = recorder.trajectory.computation.stiff_since.unwrap_or(f64::NAN).to_bits();
             recorder.place = Place { recorded, moved, stiff_since, ..Place::starting(events, (cost, work)) };
             if let Some(reason) = accumulation {
                 return Err(reason);

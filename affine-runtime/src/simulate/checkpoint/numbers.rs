@@ -25,10 +25,7 @@ impl Place {
         *met = count as usize;
         tape.flag(recorded);
         tape.flag(moved);
-        let (mut is_stiff, mut since) = (stiff_since.is_some(), stiff_since.unwrap_or_default());
-        tape.flag(&mut is_stiff);
-        tape.bits(&mut since);
-        *stiff_since = is_stiff.then_some(since);
+        tape.bits(stiff_since);
     }
 
     /// A number by which it is known that none of it was changed.
