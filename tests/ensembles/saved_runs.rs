@@ -168,6 +168,45 @@ fn what_is_interrupted_goes_on() {
     are_the_run(&folder, elastic());
 }
 
+/// With outputs that are far apart, or none, a run may be interrupted many times between two of them.
+#[test]
+fn events_between_two_outputs_are_kept() {
+    fn interrupted(name: &str, run: impl Fn() -> Simulation<'static, 3, Elastic>, by_steps: bool) {
+        let folder = Folder::new(name);
+        let mut parts = 0;
+        loop {
+            parts += 1;
+            let mut calls = 0;
+            let fifth = move |_: &_| {
+                calls += 1;
+                if calls < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            let part = if by_steps { run().max_steps(5 * parts) } else { run().progress(fifth) };
+            match part.save(&folder.0, (Format::Csv, CHUNK), |_| ()) {
+                Ok(()) => break,
+                Err(Error::Stopped(_)) => assert!(parts < 100, "{name}"),
+                Err(other) => panic!("{name}: {other}"),
+            }
+        }
+        assert!(parts > 5, "{name}: {parts}");
+        assert!(are_the_run(&folder, run()) > 3, "{name}");
+        let manifest = String::from_utf8(folder.files()["manifest.txt"].clone()).unwrap();
+        let listed =
+            manifest.lines().filter(|line| line.starts_with("chunk ") || line.starts_with("events "));
+        let mut listed: Vec<&str> = listed.filter_map(|line| line.split(' ').nth(1)).collect();
+        let count = listed.len();
+        listed.sort_unstable();
+        listed.dedup();
+        assert_eq!((listed.len(), count), (folder.files().len() - 1, count), "{name}: {manifest}");
+    }
+    for by_steps in [true, false] {
+        interrupted("no outputs", || elastic().output([]), by_steps);
+        interrupted("one output", || elastic().output([5.0]), by_steps);
+        interrupted("few outputs", || elastic().every(3.0), by_steps);
+        interrupted("steps in parts", elastic, by_steps);
+    }
+}
+
 #[test]
 fn a_run_that_stops_has_its_rows_written() {
     let (zero, one) = (Vector::<2>::zeros(), Matrix::<2>::identity());

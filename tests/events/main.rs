@@ -5,5 +5,6 @@ mod collapse;
 mod contact;
 mod corner;
 mod models;
+mod rest;
 mod rotation;
 mod zero;

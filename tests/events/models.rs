@@ -11,7 +11,7 @@ pub(crate) struct Disc;
     dim = 2,
     kinetic(dalembert = 1, space_translation = 1),
     potential = 9.81*x[2],
-    emit(nystrom, splitting, taylor),
+    emit(nystrom, splitting, taylor, lanes),
 )]
 pub(crate) struct Ball;
 

@@ -113,6 +113,21 @@ pub(crate) struct Held {
     pub(crate) turn: AtPoint<2, Spring, Space, 2>,
 }
 
+/// Held at two points, with a stiffness that is a field as well.
+#[affine_model(
+    dim = 2,
+    kinetic(dalembert = 1, space_translation = 1),
+    potential = orthogonality(stiffness),
+    forces = custom(press, translation, position) + custom(turn, spatial, position),
+    emit(splitting, lanes)
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tightened {
+    pub(crate) stiffness: f64,
+    pub(crate) press: AtPoint<2, Spring, Translation, 2>,
+    pub(crate) turn: AtPoint<2, Spring, Space, 2>,
+}
+
 /// A push that has no value beyond `x[1] = 2`, and notes where it is asked although no body could be there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Push(pub(crate) &'static AtomicBool);

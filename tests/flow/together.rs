@@ -9,8 +9,8 @@ use affine_runtime::prelude::*;
 use affine_runtime::simulate::{Reason, Setting, Stop};
 
 use crate::models::{
-    Block, Cube, Driven, Dust, Held, PreparedDust, Push, Pushed, Slanted, Spring, Walled, block, sheared,
-    strained, thrown,
+    Block, Cube, Driven, Dust, Held, PreparedDust, Push, Pushed, Slanted, Spring, Tightened, Walled, block,
+    sheared, strained, thrown,
 };
 
 type PointOf<const N: usize, M> = <M as Model<N>>::Point<f64>;
@@ -167,6 +167,13 @@ fn bodies_of_other_kinds() {
         let (ends, spring) = ([[1.0, 0.0], [-1.0, 0.5]], Spring(1.0 + f64::from(k)));
         Held { press: AtPoint::new(ends, spring), turn: AtPoint::new(ends, spring) }
     };
+    // A prepared model is copied where the fields that it holds are.
+    let tightened = (0..10).map(|k| {
+        let Held { press, turn } = held(k);
+        let model = Tightened { stiffness: 10.0, press, turn }.prepare().unwrap();
+        (Owned(model), model.at_velocity(x, phi(k), v, 0.3 * sheared()).unwrap())
+    });
+    are_where_each_is(tightened.collect(), 0);
     let held = (0..10).map(|k| (Owned(held(k)), held(k).at_velocity(x, phi(k), v, 0.3 * sheared()).unwrap()));
     are_where_each_is(held.collect(), 0);
     let walled = (0..10).map(|k| (Owned(Walled), Walled.at_velocity(x, phi(k), v, 0.3 * sheared()).unwrap()));

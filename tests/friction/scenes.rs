@@ -225,6 +225,7 @@ fn friction_that_grows_stiff_on_the_way() {
         let checkpoint = halt.trajectory.checkpoint().unwrap();
         let rest = to(Method::Automatic, 1e-9).resume(checkpoint).run().unwrap();
         assert_eq!((rest.end().1, rest.statistics().steps), (point, run.statistics().steps));
+        assert_eq!(rest.computation().stiff_since, Some(since), "{}", rest.why());
     }
     // Soft until the end, nothing changes.
     let soft = Simulation::new(&model, start).until(0.1).tolerance(1e-12).run().unwrap();

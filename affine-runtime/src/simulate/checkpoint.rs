@@ -62,12 +62,15 @@ pub(super) struct Place {
     pub(super) recorded: bool,
     /// An event has set the centre of mass in motion.
     pub(super) moved: bool,
+    /// Bits of the time from which on another method took the motion because friction was stiff; no number without one.
+    pub(super) stiff_since: u64,
 }
 
 impl Place {
     /// At the start of an integration. Where that is is written down when it is asked for, by [`from`](Self::from).
     pub(super) fn starting(events: Vec<Memory>, (cost, work): (Statistics, f64)) -> Self {
-        let mut place = Self { events, work: work.to_bits(), ..Self::default() };
+        let stiff_since = f64::NAN.to_bits();
+        let mut place = Self { events, work: work.to_bits(), stiff_since, ..Self::default() };
         place.set_cost(cost);
         place
     }
@@ -119,6 +122,11 @@ impl Place {
     /// The work before.
     pub(super) fn work(&self) -> f64 {
         f64::from_bits(self.work)
+    }
+
+    /// From when on another method took the motion because friction was stiff.
+    pub(super) fn stiff_since(&self) -> Option<f64> {
+        Some(f64::from_bits(self.stiff_since)).filter(|t| !t.is_nan())
     }
 
     /// The cost before.

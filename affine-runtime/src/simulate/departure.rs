@@ -10,6 +10,8 @@ const ROUNDINGS: f64 = 64.0;
 const ABOVE_ROUNDING: f64 = 16.0;
 /// Changes count from so many times the least of them on: those of a few quanta have no rate.
 const QUANTA: f64 = 8.0;
+/// The last distance is at most so many times the one before, and at least half as many times: what is closer tells no power.
+const LAST: f64 = 3.0;
 /// `f(t) - f(t0) ~ (t - t0)^p` with `p` below this is linear.
 const LINEAR: f64 = 1.5;
 
@@ -22,37 +24,37 @@ pub(super) struct Departure {
     pub(super) t: f64,
     /// The value of the function at that time.
     pub(super) value: f64,
-    /// The size of its rate at the beginning; `None` where that vanishes.
+    /// The size of its rate at the beginning; `None` where that vanishes, or is not to be told.
     pub(super) rate: Option<f64>,
 }
 
-/// Where `f`, whose value `f0` at `t0` is zero up to rounding, goes from there on the way to `end`; `None` where it stays at
-/// zero.
+/// Where `f`, whose value `f0` at `t0` is zero up to rounding, goes on the way from a time, at which it is still there, to
+/// another; `None` where it stays at zero.
 ///
-/// What is looked at is `f(t) - f0`, at times that double their distance from `t0`: the first change that rounding does not
-/// explain, and the next one agrees with, tells the side, and both of them whether it grows like `t - t0` or like a higher
-/// power. A function that turns back before it is beyond `f0` goes to the other side, with a rate that vanishes.
+/// What is looked at is `f(t) - f0`, at times that double their distance from where the way begins: the first change that
+/// rounding does not explain, and the next one agrees with, tells the side, and both of them whether it grows like `t - t0` or
+/// like a higher power. A function that turns back before it is beyond `f0` goes to the other side, with a rate that vanishes.
 ///
 /// # Errors
 /// Those of `f`.
 pub(super) fn departure<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     (t0, f0): (f64, f64),
-    end: f64,
+    (from, end): (f64, f64),
 ) -> Result<Option<Departure>, E> {
-    let span = end - t0;
-    let nearest = larger(NEAREST * span.abs(), ROUNDINGS * f64::EPSILON * larger(t0.abs(), end.abs()));
+    let (span, passed) = (end - from, from - t0);
+    let nearest = larger(NEAREST * span.abs(), ROUNDINGS * f64::EPSILON * larger(from.abs(), end.abs()));
     if nearest >= span.abs() {
         return Ok(None);
     }
     let mut s = nearest.copysign(span);
-    let rounding = ABOVE_ROUNDING * roughness(&mut f, t0, s)?;
+    let rounding = ABOVE_ROUNDING * roughness(&mut f, from, s)?;
     // The least change, the one before if it counts, and what they tell.
     let (mut least, mut before, mut going): (f64, Option<(f64, f64)>, _) = (0.0, None, None);
     // The side of all changes, if there is one.
     let mut always = None;
     loop {
-        let t = if s == span { end } else { t0 + s };
+        let (t, since) = (if s == span { end } else { from + s }, passed + s);
         let value = f(t)?;
         let change = value - f0;
         let side = Side::of(change);
@@ -62,9 +64,9 @@ pub(super) fn departure<E>(
         always = always.filter(|always| Some(*always) == side);
         going = match going {
             Some((toward, _)) if side == Some(Side::opposite(toward)) => Some((toward.opposite(), None)),
-            None => before.filter(|(_, before)| Side::of(*before) == side).and_then(|(from, before)| {
-                let is_linear = change.abs() < before.abs() * libm::pow(s / from, LINEAR);
-                Some((side?, is_linear.then(|| (before / from).abs())))
+            None => before.filter(|(_, before)| Side::of(*before) == side).and_then(|(earlier, before)| {
+                let is_linear = change.abs() < before.abs() * libm::pow(since / earlier, LINEAR);
+                Some((side?, is_linear.then(|| (before / earlier).abs())))
             }),
             known => known,
         };
@@ -74,23 +76,23 @@ pub(super) fn departure<E>(
             return Ok(Some(Departure { side, t, value, rate }));
         }
         if s == span {
-            // A function that jumps away is at once where it stays.
+            // A function that jumps away is at once where it stays; one that has gone a few roundings looks like it.
             let jumped = always.filter(|side| Side::of(value) == Some(*side));
-            return Ok(jumped.map(|side| Departure { side, t, value, rate: Some(f64::INFINITY) }));
+            return Ok(jumped.map(|side| Departure { side, t, value, rate: None }));
         }
         before = (change.abs() >= larger(rounding, QUANTA * least))
-            .then_some((s, change))
+            .then_some((since, change))
             .filter(|_| change != 0.0);
-        s = if 2.0 * s.abs() < span.abs() { 2.0 * s } else { span };
+        s = if LAST * s.abs() < span.abs() { 2.0 * s } else { span };
     }
 }
 
 /// Largest difference between neighbours of four values close together: the rounding of the function, unless its motion is
 /// larger.
-fn roughness<E>(f: &mut impl FnMut(f64) -> Result<f64, E>, t0: f64, s: f64) -> Result<f64, E> {
+fn roughness<E>(f: &mut impl FnMut(f64) -> Result<f64, E>, from: f64, s: f64) -> Result<f64, E> {
     let mut values = [0.0; 4];
     for (value, part) in values.iter_mut().zip([0.25, 0.5, 0.75, 1.0]) {
-        *value = f(t0 + part * s)?;
+        *value = f(from + part * s)?;
     }
     Ok(values.windows(2).fold(0.0, |most, pair| larger(most, (pair[1] - pair[0]).abs())))
 }
@@ -111,7 +113,7 @@ mod tests {
             assert!((t - t0) * (end - t) >= 0.0 && t != t0, "{t} is not on the way from {t0} to {end}");
             Ok::<f64, Infallible>(f(t))
         };
-        let left = departure(counted, (t0, f(t0)), end);
+        let left = departure(counted, (t0, f(t0)), (t0, end));
         (left.unwrap_or_else(|never| match never {}), calls)
     }
 
@@ -171,6 +173,31 @@ mod tests {
         }
     }
 
+    /// Looked at from a later time on, at which the function is still at zero up to rounding.
+    #[test]
+    fn rates_are_those_since_the_beginning() {
+        let quantum = 1e-10;
+        for (t0, sign) in [(0.0, 1.0), (0.7, -1.0), (1e3, 1.0)] {
+            let leaving = |rate: f64, passed: f64, ahead: f64| {
+                let rounded = |t: f64| {
+                    let since = sign * (t - t0);
+                    Ok::<f64, Infallible>(((rate * since - 5.0 * since * since) / quantum).round() * quantum)
+                };
+                let way = (t0 + sign * passed, t0 + sign * (passed + ahead));
+                let left = departure(rounded, (t0, 0.0), way);
+                left.unwrap_or_else(|never| match never {}).unwrap()
+            };
+            for ahead in [1e-5, 1e-4, 1.0] {
+                for (rate, passed) in [(0.0, 1e-6), (0.0, 3e-6), (1e-6, 1e-6), (5e-6, 3e-6)] {
+                    let left = leaving(rate, passed, ahead);
+                    assert_eq!((left.side, left.rate), (Negative, None), "{t0} {passed} {ahead} {rate}");
+                }
+                let left = leaving(-1e-3, 1e-7, ahead);
+                assert!(left.side == Negative && (left.rate.unwrap() / 1e-3 - 1.0).abs() < 0.2, "{left:?}");
+            }
+        }
+    }
+
     /// Values that are rounded to a quantum have no rate in its range.
     #[test]
     fn rounding_is_no_motion() {
@@ -199,7 +226,7 @@ mod tests {
     fn jumps_and_what_is_no_number() {
         for value in [-1.0, f64::NEG_INFINITY, 1e-300] {
             let left = leaving(|t| if t == 0.0 { 0.0 } else { value }, 0.0, 1.0).0.unwrap();
-            assert_eq!((Some(left.side), left.rate), (Side::of(value), Some(f64::INFINITY)), "{value}");
+            assert_eq!((Some(left.side), left.rate), (Side::of(value), None), "{value}");
         }
         // Where the function has begun to go is not asked.
         let late = leaving(|t| if t < 0.9 { 0.0 } else { -1.0 }, 0.0, 1.0).0.unwrap();

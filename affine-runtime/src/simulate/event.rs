@@ -75,7 +75,8 @@ type Change<'a, P> = Box<dyn Fn(f64, &P) -> Result<P> + 'a>;
 /// An event that [changes](Self::change) the point does not meet itself: its function turns back, or goes on through zero as
 /// the change lets it. If the change takes its rate away and the function would go through zero nonetheless, as that of a
 /// ball which stays on a floor, or if it happens ever faster, as bounces with a part of the velocity do, the run ends there,
-/// [`Reason::Accumulation`](super::Reason::Accumulation).
+/// [`Reason::Accumulation`](super::Reason::Accumulation). What leaves zero by no more than some roundings of the function, or for
+/// no longer than some roundings of the time, has not left it.
 ///
 /// A function that is not a number at the start is looked at from the next sample on; one that is not a number later, at a
 /// phase point that is one, ends the run, [`Reason::Event`](super::Reason::Event).

@@ -171,6 +171,7 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         let origin = checkpoint.place.origin(&self.settings.start);
         recorder.place = checkpoint.place;
         recorder.trajectory.computation.at_rest &= !recorder.place.moved;
+        recorder.trajectory.computation.stiff_since = recorder.place.stiff_since();
         recorder.trajectory.end = origin;
         recorder.trajectory.energies.work_at_end = recorder.place.work();
         recorder.schedule.resume(recorder.place.outputs);
@@ -189,6 +190,8 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
         loop {
             let energy = known.take().unwrap_or_else(|| Energy::at(self.model, from.0, &from.1));
             self.leg(from, &energy, recorder)?;
+            // The point itself, where another method takes the motion.
+            let recorded = matches!(recorder.turn, Some(Turn::Anew { .. }));
             let (t, point, work, accumulation) = match recorder.turn.take() {
                 Some(Turn::Changed { t, point, work, accumulation }) => (t, point, work, accumulation),
                 Some(Turn::Anew { t, point, work }) => {
@@ -204,9 +207,9 @@ impl<const N: usize, P: Phase<N>> Run<'_, N, P> {
             recorder.trajectory.computation.at_rest &= point.p().iter().all(|p| *p == 0.0);
             let cost = recorder.trajectory.statistics;
             let events = recorder.watcher.memory().to_vec();
-            let recorded = recorder.trajectory.computation.stiff_since == Some(t);
             let moved = !recorder.trajectory.computation.at_rest;
-            recorder.place = Place { recorded, moved, ..Place::starting(events, (cost, work)) };
+            let stiff_since = recorder.trajectory.computation.stiff_since.unwrap_or(f64::NAN).to_bits();
+            recorder.place = Place { recorded, moved, stiff_since, ..Place::starting(events, (cost, work)) };
             if let Some(reason) = accumulation {
                 return Err(reason);
             }

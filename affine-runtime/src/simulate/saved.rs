@@ -22,7 +22,7 @@ const ENDED: &str = "state ended";
 
 impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     /// Runs the simulation and writes its outputs into a folder as they come: a file for each `chunk` of them, at least one, with the columns of
-    /// [`Trajectory::table`] and what `about` notes of the table as a whole, a file of its events, [`Trajectory::events_csv`], where there are some, and `manifest.txt`, which
+    /// [`Trajectory::table`] and what `about` notes of the table as a whole, a file of its events, [`Trajectory::events_csv`], where there are some, each under the number of its first row or event, and `manifest.txt`, which
     /// names these files, and has the state from which the run goes on after each. Memory holds one chunk.
     ///
     /// A run that is ended from outside loses the chunk under way at most: the same call goes on after the chunks that the manifest
@@ -46,10 +46,8 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
         let known = fingerprint(&moving, &self.settings, &events);
         let run = format!("run, {chunk} a file in {format:?}, {known}");
         let (folder, there) = Folder::open(folder.as_ref(), &run, "state ", model)?;
-        let last = there.iter().rfind(|line| line.starts_with("chunk "));
-        let numbers =
-            last.map(|line| line.split(' ').skip(2).filter_map(|number| number.parse::<u64>().ok()));
-        let mut chunks = Chunks { folder, format, about: &about, first: numbers.map_or(0, Iterator::sum) };
+        let [rows, events] = ["chunk ", "events "].map(|kind| listed(&there, kind));
+        let mut chunks = Chunks { folder, format, about: &about, rows, events };
         match there.last().map(String::as_str) {
             Some(ENDED) => return Ok(()),
             Some(state) => self.settings.checkpoint = Some(Checkpoint::of_line(known, state, model)?),
@@ -83,13 +81,21 @@ impl<const N: usize, M: Model<N>> Simulation<'_, N, M> {
     }
 }
 
+/// How many rows there are in the files of a kind: the last number of each of their lines.
+fn listed(there: &[String], kind: &str) -> u64 {
+    let lines = there.iter().filter(|line| line.starts_with(kind));
+    lines.filter_map(|line| line.rsplit(' ').next()?.parse::<u64>().ok()).fold(0, u64::saturating_add)
+}
+
 /// The chunks of a run.
 struct Chunks<'a> {
     folder: Folder,
     format: Format,
     about: &'a dyn Fn(&mut Table),
-    /// Number of the first output of the next one.
-    first: u64,
+    /// Outputs that are there: the number of the next one.
+    rows: u64,
+    /// Events that are there.
+    events: u64,
 }
 
 impl Chunks<'_> {
@@ -99,22 +105,26 @@ impl Chunks<'_> {
         trajectory: &Trajectory<N, P>,
         state: Option<&str>,
     ) -> Result<()> {
-        let (first, mut table, mut lines) = (self.first, trajectory.table(), Vec::new());
+        let (mut table, mut lines) = (trajectory.table(), Vec::new());
         (self.about)(&mut table);
-        // What was there before may have been all.
-        if !table.is_empty() || first == 0 {
-            let name = self.folder.write(&format!("chunk-{first:012}"), &table, self.format)?;
-            lines.push(format!("chunk {name} {first} {}", table.len()));
+        // A run without outputs has the names of its columns, once it does not go on.
+        let (rows, is_last) = (self.rows, state.is_none_or(|state| state == ENDED));
+        if !table.is_empty() || rows == 0 && is_last {
+            let name = self.folder.write(&format!("chunk-{rows:012}"), &table, self.format)?;
+            lines.push(format!("chunk {name} {rows} {}", table.len()));
         }
-        if !trajectory.events().is_empty() {
-            let name = format!("events-{first:012}.csv");
+        // Between two outputs a run may be interrupted several times: their number does not tell files of events apart.
+        let events = trajectory.events().len();
+        if events > 0 {
+            let name = format!("events-{:012}.csv", self.events);
             let mut text = Vec::new();
             let written = trajectory.events_csv(&mut text);
             self.folder.put(&name, written.map(|()| text))?;
-            lines.push(format!("events {name} {}", trajectory.events().len()));
+            lines.push(format!("events {name} {events}"));
         }
         lines.extend(state.map(str::to_owned));
-        self.first += table.len() as u64;
+        self.rows += table.len() as u64;
+        self.events += events as u64;
         self.folder.note(&(lines.join("\n") + "\n"))
     }
 }

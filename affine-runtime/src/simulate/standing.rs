@@ -1,6 +1,7 @@
 //! On which side of zero the function of an event stands, from one sample to the next.
 
 use super::accumulation::Changes;
+use crate::inner::Tape;
 
 /// A side of zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,9 +41,41 @@ pub(super) enum Standing {
     /// At zero, coming from a side: its sign changes if it leaves for the other one.
     Leaving {
         from: Side,
-        /// Bits of the rate at which it came, where its own change has left it there.
-        changed: Option<u64>,
+        /// Its own change has left it there.
+        left: Option<Left>,
     },
+}
+
+/// How the change of its own event has left a function at zero. Bits, so that every number has a text.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Left {
+    t: u64,
+    value: u64,
+    rate: u64,
+}
+
+impl Left {
+    /// At a time with a value, where it came at a rate.
+    pub(super) fn at((t, value): (f64, f64), rate: f64) -> Self {
+        Self { t: t.to_bits(), value: value.to_bits(), rate: rate.to_bits() }
+    }
+
+    /// The time and the value.
+    pub(super) fn place(self) -> (f64, f64) {
+        (f64::from_bits(self.t), f64::from_bits(self.value))
+    }
+
+    /// The rate at which it came.
+    pub(super) fn rate(self) -> f64 {
+        f64::from_bits(self.rate)
+    }
+
+    /// Hands over, or takes back, what is known.
+    pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
+        let Self { t, value, rate } = self;
+        [t, value, rate].into_iter().for_each(|bits| tape.bits(bits));
+    }
 }
 
 impl Standing {

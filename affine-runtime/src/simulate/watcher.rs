@@ -10,7 +10,7 @@ use super::event::{Action, Direction, Event};
 use super::motion::WithWork;
 use super::point::check;
 use super::root::root;
-use super::standing::{Memory, Side, Standing};
+use super::standing::{Left, Memory, Side, Standing};
 use crate::error::Reason;
 use crate::inner::larger;
 use crate::metrics::Bases;
@@ -26,6 +26,8 @@ const TURN: f64 = 0.5;
 const AT_ZERO: f64 = 1e-3;
 /// Part of these values that rounding may make of zero.
 const ROUNDED: f64 = 1e-12;
+/// Roundings of a function that a change of its sign may be from zero.
+const ROUNDINGS: f64 = 16.0;
 /// Part of the rate at which a function came to zero that is no rate at which it goes on.
 const AT_REST: f64 = 1e-6;
 /// Part of the rate at one sample that is expected at the next: an oscillation is slow where it turns, and fast again after that.
@@ -46,6 +48,8 @@ pub(super) struct Met<P> {
     pub(super) to: Side,
     /// The size of its rate, about.
     pub(super) rate: f64,
+    /// A time on the way to zero and the point, where a change asks for it; none where the function has been there all along.
+    before: Option<(f64, P)>,
     pub(super) point: P,
     pub(super) work: f64,
 }
@@ -179,12 +183,16 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             let function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
             let first = if self.are_told { self.ways[index].zero() } else { 0.5 };
             let time = root(function, begin, (t, value), first)?;
-            let middle = begin.0 + 0.5 * (time - begin.0);
-            let rate = match event.action {
-                Action::Change(_) => (event.value(middle, &at(middle)?.0, bases)? / (time - middle)).abs(),
-                Action::Record | Action::Stop => 0.0,
-            };
-            self.insert(&mut met, (index, time, from.opposite(), rate), at)?;
+            let (point, work) = at(time)?;
+            let (mut rate, mut before) = (0.0, None);
+            if matches!(event.action, Action::Change(_)) {
+                let middle = begin.0 + 0.5 * (time - begin.0);
+                let (point, _) = at(middle)?;
+                rate = (event.value(middle, &point, bases)? / (time - middle)).abs();
+                before = Some((middle, point));
+            }
+            let to = from.opposite();
+            self.insert(&mut met, Met { t: time, event: index, to, rate, before, point, work });
         }
         if self.rests.is_some() {
             met.retain(|met| met.t == self.begin.t);
@@ -225,26 +233,30 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         let (from, changed) = match memory.standing {
             Standing::On(from) => return Ok(Some(Way { begin, from })),
             Standing::Open => return Ok(None),
-            Standing::Leaving { from, changed } => (from, changed.map(f64::from_bits)),
+            Standing::Leaving { from, left } => (from, left),
         };
+        // What stays at zero for a while has gone on by then: its rate is that since its change.
+        let origin = changed.map_or(begin, Left::place);
         let mut function = |t: f64| at(t).and_then(|(point, _)| event.value(t, &point, bases));
         // One that rests is not looked at as closely as one that may move.
         let middle = begin.0 + 0.5 * (self.end.t - begin.0);
-        let is_still = self.end.values[index] == begin.1 && function(middle)? == begin.1;
-        let left = if is_still { None } else { departure(function, begin, self.end.t)? };
+        let is_still = self.end.values[index] == origin.1 && function(middle)? == origin.1;
+        let left = if is_still { None } else { departure(function, origin, (begin.0, self.end.t))? };
         self.stays[index] = left.is_none();
         let Some(left) = left else { return Ok(None) };
         let is_beyond = left.side != from;
         if let Some(came) = changed
             && is_beyond
-            && left.rate.is_none_or(|rate| rate < AT_REST * came)
+            && left.rate.is_none_or(|rate| rate < AT_REST * came.rate())
         {
             let (event, count) = (event.name, memory.changes.count);
             self.rests = Some(Reason::Accumulation { event, t: begin.0, count });
             return Ok(None);
         }
         if is_beyond && changed.is_none() && event.counts(left.side) {
-            self.insert(met, (index, begin.0, left.side, left.rate.unwrap_or(0.0)), at)?;
+            let (t, to, rate) = (begin.0, left.side, left.rate.unwrap_or(0.0));
+            let (point, work) = at(t)?;
+            self.insert(met, Met { t, event: index, to, rate, before: None, point, work });
         } else {
             memory.standing = Standing::On(left.side);
         }
@@ -252,17 +264,10 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
     }
 
     /// Puts one of few events in its place, after those of the same time.
-    fn insert(
-        &self,
-        met: &mut Vec<Met<P>>,
-        (event, t, to, rate): (usize, f64, Side, f64),
-        at: &mut At<'_, P>,
-    ) -> Result<(), Reason> {
-        let (point, work) = at(t)?;
+    fn insert(&self, met: &mut Vec<Met<P>>, one: Met<P>) {
         let sign = if self.end.t < self.begin.t { -1.0 } else { 1.0 };
-        let place = met.partition_point(|other: &Met<P>| sign * other.t <= sign * t);
-        met.insert(place, Met { t, event, to, rate, point, work });
-        Ok(())
+        let place = met.partition_point(|other| sign * other.t <= sign * one.t);
+        met.insert(place, one);
     }
 
     /// An event has happened.
@@ -292,12 +297,17 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
         self.rests = None;
         for (index, event) in self.events.iter().enumerate() {
             let [before, after] = [&met.point, changed].map(|point| event.at(met.t, point, bases));
-            let size = larger(self.begin.values[index].abs(), self.end.values[index].abs());
-            let was_at_zero = before.abs() <= AT_ZERO * size;
+            let (own, size) =
+                (index == met.event, larger(self.begin.values[index].abs(), self.end.values[index].abs()));
+            // The last flights before a rest are some roundings high, and some roundings of time long.
+            let came = if own { f64::EPSILON * met.rate * met.t.abs() } else { 0.0 };
+            let rounding = larger(event.rounding(met.before.unwrap_or((met.t, met.point)), bases), came);
+            let near = larger(AT_ZERO * size, ROUNDINGS * rounding);
+            let was_at_zero = before.abs() <= near || own && met.before.is_none();
             let Memory { standing, changes } = &mut self.memory[index];
-            let (mut side, mut rate) = (standing.side(), None);
-            if index == met.event {
-                (side, rate) = (Some(met.to.opposite()), Some(met.rate.to_bits()));
+            let (mut side, mut left) = (standing.side(), None);
+            if own {
+                (side, left) = (Some(met.to.opposite()), Some(Left::at((met.t, after), met.rate)));
                 accumulation = changes.happen(met.t, was_at_zero).map(|t| (t, changes.count));
             }
             // It has come to zero at this very time, and the change has left it there.
@@ -305,9 +315,7 @@ impl<'a, const N: usize, P: Phase<N>> Watcher<'a, N, P> {
             let is_left = after.abs() <= larger(2.0 * before.abs(), ROUNDED * size);
             let from = if was_at_zero { side } else { event.start().or(side) };
             *standing = match from {
-                Some(from) if has_come && is_left || after == 0.0 => {
-                    Standing::Leaving { from, changed: rate }
-                }
+                Some(from) if has_come && is_left || after == 0.0 => Standing::Leaving { from, left },
                 _ => Standing::of(after),
             };
         }
@@ -330,6 +338,18 @@ impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
         Ok(value)
     }
 
+    /// What rounding of the time and of the numbers of a point makes of its function, about.
+    fn rounding(&self, (t, point): (f64, P), bases: Option<&Bases<N>>) -> f64 {
+        let mut numbers = Vec::new();
+        point.entries(&mut |number| numbers.push(number));
+        // Each of them by another one, so that differences of equal numbers show it.
+        let mut rounded = (1_u32..).zip(numbers);
+        let beside = point.with_entries(&mut || {
+            rounded.next().map_or(f64::NAN, |(k, number)| number * (1.0 + f64::from(k) * f64::EPSILON))
+        });
+        (self.at(t * (1.0 + f64::EPSILON), &beside, bases) - self.at(t, &point, bases)).abs()
+    }
+
     fn counts(&self, to: Side) -> bool {
         match self.direction {
             Direction::Rising => to == Side::Positive,
@@ -350,7 +370,7 @@ impl<const N: usize, P: Phase<N>> Event<'_, N, P> {
     /// What is known at the start of a run.
     fn first(&self, value: f64) -> Memory {
         let leaving = self.start().filter(|_| value == 0.0);
-        let standing = leaving.map_or(Standing::of(value), |from| Standing::Leaving { from, changed: None });
+        let standing = leaving.map_or(Standing::of(value), |from| Standing::Leaving { from, left: None });
         Memory { standing, changes: Changes::default() }
     }
 }

@@ -28,10 +28,16 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
     let summary = format!(" [`{model}`] with values of its fields that make it well posed.");
     if !context.spec.customs.is_empty() {
         let generics = &context.spec.item.generics;
-        let (_, types, clause) = generics.split_for_impl();
+        let (parameters, types, clause) = generics.split_for_impl();
         let fields = called(context).map(|(name, field)| {
             let ty = &field.ty;
             quote!(#name: #ty,)
+        });
+        // A lifetime keeps the compiler from judging the bounds of types that have none of these.
+        let given = clause.iter().flat_map(|clause| &clause.predicates);
+        let copied = called(context).map(|(_, field)| {
+            let ty = &field.ty;
+            quote!(for<'never> #ty: ::core::marker::Copy,)
         });
         return quote! {
             #[doc = #summary]
@@ -43,6 +49,13 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
                 coefficients: [::core::primitive::f64; #count],
                 #(#fields)*
                 model: ::core::marker::PhantomData<fn() -> #model #types>,
+            }
+            impl #parameters ::core::marker::Copy for #prepared #types
+            where
+                #(#given,)*
+                for<'never> Self: ::core::clone::Clone,
+                #(#copied)*
+            {
             }
         };
     }

@@ -4,7 +4,7 @@ use super::Place;
 use crate::inner::Tape;
 use crate::simulate::accumulation::Changes;
 use crate::simulate::digest::Digest;
-use crate::simulate::standing::{Memory, Side, Standing};
+use crate::simulate::standing::{Left, Memory, Side, Standing};
 
 /// More numbers than any state has: a length above is none.
 const MOST: u64 = 1 << 16;
@@ -12,7 +12,8 @@ const SIDES: [Side; 2] = [Side::Negative, Side::Positive];
 
 impl Place {
     pub(super) fn exchange(&mut self, tape: &mut impl Tape) {
-        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded, moved } = self;
+        let Self { from, events, cost, work, energy, integrator, outputs, met, recorded, moved, stiff_since } =
+            self;
         listed(from, 0, tape, |bits, tape| tape.bits(bits));
         let begun = Memory { standing: Standing::Open, changes: Changes::default() };
         listed(events, begun, tape, remembered);
@@ -24,6 +25,7 @@ impl Place {
         *met = count as usize;
         tape.flag(recorded);
         tape.flag(moved);
+        tape.bits(stiff_since);
     }
 
     /// A number by which it is known that none of it was changed.
@@ -49,21 +51,21 @@ pub(super) fn chosen<T: Copy + PartialEq>(value: &mut T, of: &[T], tape: &mut im
     *value = of.get(place as usize).copied().unwrap_or(*value);
 }
 
-/// What is remembered of an event: where it stands, by the kind of that, a side and a rate.
+/// What is remembered of an event: where it stands, by the kind of that, a side and how it was left, and its changes.
 fn remembered<K: Tape>(memory: &mut Memory, tape: &mut K) {
-    let (mut kind, mut side, mut rate) = match memory.standing {
-        Standing::Open => (0, Side::Negative, 0),
-        Standing::On(side) => (1, side, 0),
-        Standing::Leaving { from, changed: None } => (2, from, 0),
-        Standing::Leaving { from, changed: Some(rate) } => (3, from, rate),
+    let (mut kind, mut side, mut left) = match memory.standing {
+        Standing::Open => (0, Side::Negative, Left::default()),
+        Standing::On(side) => (1, side, Left::default()),
+        Standing::Leaving { from, left: None } => (2, from, Left::default()),
+        Standing::Leaving { from, left: Some(left) } => (3, from, left),
     };
     tape.bits(&mut kind);
     chosen(&mut side, &SIDES, tape);
-    tape.bits(&mut rate);
+    left.exchange(tape);
     memory.standing = match kind {
         1 => Standing::On(side),
-        2 => Standing::Leaving { from: side, changed: None },
-        3 => Standing::Leaving { from: side, changed: Some(rate) },
+        2 => Standing::Leaving { from: side, left: None },
+        3 => Standing::Leaving { from: side, left: Some(left) },
         _ => Standing::Open,
     };
     memory.changes.exchange(tape);
