@@ -201,7 +201,9 @@ function plotter(id, series, label) {
   if (!(high - low > 1e-9 * size)) [low, high] = size ? [low - Math.abs(low), low + Math.abs(low)] : [-1, 1];
   canvas.hidden = canvas.previousElementSibling.hidden = !series.length;
   series.forEach((one, i) => explain(id, one.name, COLOURS[i % COLOURS.length]));
-  const left = 58, edge = 14;
+  const marks = [low, (low + high) / 2, high], labels = marks.map((y) => label(y, (high - low) / 2));
+  const edge = 14;
+  let left = 58;
   const scrub = (event) => event.buttons && go((event.offsetX - left) / (canvas.clientWidth - left - edge));
   for (const kind of ["pointerdown", "pointermove"]) canvas.addEventListener(kind, scrub);
   return () => {
@@ -215,13 +217,14 @@ function plotter(id, series, label) {
     pen.clearRect(0, 0, width, height);
     const faint = style.getPropertyValue("--faint");
     Object.assign(pen, { font: "12px system-ui, sans-serif", fillStyle: style.color, strokeStyle: faint, lineWidth: 1 });
-    for (const y of [low, (low + high) / 2, high]) {
+    left = Math.max(58, 10 + most(labels.map((text) => pen.measureText(text).width)));
+    marks.forEach((y, i) => {
       line(left, up(y), width - edge, up(y));
-      write(label(y), "right", left - 6, up(y) + 4);
-    }
+      write(labels[i], "right", left - 6, up(y) + 4);
+    });
     for (const event of data.events) line(across(part(event.t)), edge, across(part(event.t)), height - 24);
-    write(brief(data.t[0]), "left", left, height - 8);
-    write("t = " + brief(data.t[last]), "right", width - edge, height - 8);
+    write(time(data.t[0]), "left", left, height - 8);
+    write("t = " + time(data.t[last]), "right", width - edge, height - 8);
     pen.lineWidth = 1.6;
     series.forEach((one, i) => {
       pen.strokeStyle = COLOURS[i % COLOURS.length];
@@ -239,7 +242,13 @@ function plotter(id, series, label) {
   };
 }
 
-const brief = (value) => String(Number(value.toPrecision(5)));
+// A number to so many digits, or as many as tell it from those that far away.
+function figure(value, apart, digits) {
+  if (Math.abs(value) <= 1e-3 * apart) return "0";
+  const telling = Math.ceil(Math.log10(Math.abs(value) / apart)) + 1;
+  return String(Number(value.toPrecision(Math.min(Math.max(digits, telling), 17))));
+}
+const time = (t) => figure(t, Math.abs(span) / 1000, 5);
 const drifts = data.drifts.map(({ symbol, values }) => {
   let worst = 1e-17;
   return { name: symbol, at: outputs, values: values.map((value) => Math.log10(worst = Math.max(worst, some(value)))) };
@@ -248,14 +257,14 @@ const axes = Array.from({ length: data.n }, (_, a) => a);
 const stretches = axes.map((a) => ({ name: "q" + (a + 1), at: parts, values: data.stretches.map((all) => some(all[a])) }));
 const energies = data.energies.map((energy) => ({ name: energy.symbol, at: outputs, values: energy.values.map(some) }));
 for (const a of axes) explain("axes", "axis " + (a + 1) + " of the body", AXES[a]);
-const painters = [painter(), plotter("stretches", stretches, (y) => brief(Number(y.toFixed(3)))),
-  plotter("energies", energies, (y) => String(Number(y.toPrecision(3)))),
-  plotter("drifts", drifts, (y) => "1e" + y.toFixed(1))];
+const painters = [painter(), plotter("stretches", stretches, (y, apart) => figure(y, apart, 4)),
+  plotter("energies", energies, (y, apart) => figure(y, apart, 3)),
+  plotter("drifts", drifts, (y, apart) => "1e" + figure(y, apart, 3))];
 
 function draw() {
   for (const paint of painters) paint();
   element("time").value = at;
-  element("now").textContent = "t = " + brief(data.t[0] + at * span);
+  element("now").textContent = "t = " + time(data.t[0] + at * span);
   element("play").textContent = playing ? "Pause" : "Play";
 }
 function go(s) { at = Math.min(Math.max(s, 0), 1); draw(); }
