@@ -65,16 +65,17 @@ fn implicit_steps_do_not_see_units() {
     }
 }
 
-/// A ground that presses below `x_2 = 0`.
+/// A ground that presses below `x_2 = 0`, and a wind.
 #[derive(Clone, Copy, Debug)]
 struct Ground {
     stiffness: f64,
+    wind: f64,
 }
 
 impl PointForce<2> for Ground {
     fn force<T: Scalar>(&self, _: T, x: &Vector<2, T>, _: &Vector<2, T>) -> Vector<2, T> {
         let depth = (-x[1]).max(T::zero());
-        Vector::<2, T>::new(T::zero(), T::constant(self.stiffness, 0.0) * depth)
+        Vector::<2, T>::new(T::constant(self.wind, 0.0), T::constant(self.stiffness, 0.0) * depth)
     }
 }
 
@@ -82,38 +83,54 @@ impl PointForce<2> for Ground {
     dim = 2,
     kinetic(body_inertia = m/10, casimir2 = m/40, space_translation = m),
     potential = k*q^2 + k/4*tr(G)*exp(-2*q) + m*g*x[2],
+    dissipation(body_inertia = r),
     forces = custom(press, translation) + custom(turn, spatial)
 )]
 struct Bouncing {
     m: f64,
     k: f64,
     g: f64,
+    r: f64,
     press: AtPoint<2, Ground, Translation, 4>,
     turn: AtPoint<2, Ground, Space, 4>,
+}
+
+/// A body that bounces with little friction: the steps that it takes, and where it ends.
+fn bounced((mass, time): (f64, f64), method: impl Fn(f64) -> Method) -> (u64, Matrix<2>) {
+    let feet = [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]];
+    let (x, v) = (Vector::<2>::new(0.0, 0.9), Vector::<2>::new(1.0, 0.25));
+    let phi = Matrix::<2>::new(1.1, 0.1, 0.0, 0.9);
+    let rate = Matrix::<2>::new(0.1, -1.0, 0.8, -0.1);
+    let of_force = mass / (time * time);
+    let (k, g) = (32.0 * of_force, 9.75 / (time * time));
+    let ground = Ground { stiffness: 1e3 * of_force, wind: 0.5 * of_force };
+    let (press, turn) = (AtPoint::new(feet, ground), AtPoint::new(feet, ground));
+    let body = Bouncing { m: mass, k, g, r: mass / (64.0 * time), press, turn }.prepare().unwrap();
+    let start = body.at_velocity(x, phi, v / time, rate / time).unwrap();
+    let run = Simulation::new(&body, start).until(1.5 * time).tolerance(1e-7).output([]);
+    let run = run.method(method(time)).max_steps(5000).run();
+    let run = run.unwrap_or_else(|halt| panic!("{mass:e} {time:e}: {halt}"));
+    (run.statistics().steps, *run.end().1.phi())
 }
 
 /// Contacts by steps of Gauss collocation, which need Newton's iteration.
 #[test]
 fn steps_of_contacts_do_not_see_units() {
-    let feet = [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]];
-    let (x, v) = (Vector::<2>::new(0.0, 0.9), Vector::<2>::new(1.0, 0.25));
-    let phi = Matrix::<2>::new(1.1, 0.1, 0.0, 0.9);
-    let rate = Matrix::<2>::new(0.1, -1.0, 0.8, -0.1);
     for stages in [2, 4] {
-        let ends = UNITS.map(|(mass, time)| {
-            let (k, g) = (32.0 * mass / (time * time), 9.75 / (time * time));
-            let ground = Ground { stiffness: 1e3 * mass / (time * time) };
-            let (press, turn) = (AtPoint::new(feet, ground), AtPoint::new(feet, ground));
-            let body = Bouncing { m: mass, k, g, press, turn }.prepare().unwrap();
-            let start = body.at_velocity(x, phi, v / time, rate / time).unwrap();
-            let run = Simulation::new(&body, start).until(1.5 * time).output([]);
-            let run = run.method(Method::Gauss { stages, step: time / 64.0 }).run();
-            let run = run.unwrap_or_else(|halt| panic!("{mass:e} {time:e} {stages}: {halt}"));
-            *run.end().1.phi()
-        });
+        let ends = UNITS.map(|unit| bounced(unit, |time| Method::Gauss { stages, step: time / 64.0 }).1);
         for (end, unit) in ends.iter().zip(UNITS) {
             assert!((end - ends[0]).norm() < 1e-9, "{stages} stages, {unit:?}: {:e}", (end - ends[0]).norm());
         }
+    }
+}
+
+/// The frame in which velocities are the variables of Radau steps is that of the friction beside forces of contact: in units that
+/// are powers of two all bits are the same.
+#[test]
+fn variables_of_steps_do_not_see_units() {
+    let ends = UNITS.map(|unit| (unit, bounced(unit, |_| Method::Radau { stages: None })));
+    for (unit, end) in &ends[..7] {
+        assert_eq!(*end, ends[0].1, "{unit:?}");
     }
 }
 

@@ -29,8 +29,8 @@ const MOMENTA: usize = 12;
 const SQUARINGS: i32 = 6;
 
 /// Where the momentum that the forces of a body give it is larger than the one whose kinetic energy is 1 by more than that, friction
-/// is read off at the former: up to there rounding of their power passes for friction that takes a billionth of the motion in
-/// the time in which the body moves by its own size.
+/// is read off at the former: up to there rounding of their power passes for friction that takes less than a billionth of the
+/// motion in the time in which they move the body by its own size.
 const FAR: f64 = 1e6;
 
 type Form = nalgebra::SMatrix<f64, MOMENTA, MOMENTA>;
@@ -126,7 +126,7 @@ fn forms(at: &dyn Fn([(usize, f64); 2]) -> Reading, count: usize, unit: f64) -> 
         let (ahead, behind) = (at([(i, unit), (0, 0.0)]), at([(i, -unit), (0, 0.0)]));
         inertia[(i, i)] = ahead.energy + behind.energy - 2.0 * rest.energy;
         friction[(i, i)] = rest.power - 0.5 * (ahead.power + behind.power);
-        // There its energy is the work of a force, power over speed, along its size.
+        // There the energy is the work of the forces, power over speed, along the size of the body.
         let push = 0.5 * (ahead.power - behind.power).abs();
         if push > 0.0 {
             natural = larger(natural, libm::sqrt(push / (ahead.speed * ahead.energy.abs())));
