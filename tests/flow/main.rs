@@ -4,6 +4,7 @@
 
 mod barrier;
 mod dense;
+mod dense_at_walls;
 mod models;
 mod refusals;
 mod together;

@@ -5,3 +5,4 @@ mod models;
 mod motions;
 mod scenes;
 mod splitting;
+mod units;

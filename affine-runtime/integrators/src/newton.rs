@@ -38,6 +38,8 @@ pub(crate) struct Newton<S, const MODES: usize> {
     modes: &'static [Mode],
     /// Column by column; valid where `known`.
     columns: [S; CAPACITY],
+    /// How large the components are there.
+    sizes: S,
     known: bool,
     /// Of the components from here on nothing depends.
     dimension: usize,
@@ -55,6 +57,7 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
         Self {
             modes,
             columns: [S::zeros(); CAPACITY],
+            sizes: S::zeros(),
             known: false,
             dimension: S::LEN,
             has_real_mode: false,
@@ -86,12 +89,17 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
     /// The Jacobian of `f` at `(t, y)`, where components change by about `extent` within a step. One evaluation,
     /// and one for each component.
     pub(crate) fn differentiate(&mut self, f: &dyn Fn(f64, &S) -> S, t: f64, y: &S, extent: &S) {
-        self.learn(|columns| by_differences(f, (t, y, &f(t, y)), extent, columns));
+        let mut sizes = *extent;
+        for (size, y) in sizes.as_mut().iter_mut().zip(y.as_ref()) {
+            *size = size.abs() + y.abs();
+        }
+        self.learn(&sizes, |columns| by_differences(f, (t, y, &f(t, y)), extent, columns));
     }
 
-    /// A Jacobian, column by column.
-    pub(crate) fn learn(&mut self, fill: impl FnOnce(&mut [S])) {
+    /// A Jacobian, column by column, where components are so large.
+    pub(crate) fn learn(&mut self, sizes: &S, fill: impl FnOnce(&mut [S])) {
         fill(&mut self.columns[..S::LEN]);
+        self.sizes = *sizes;
         self.known = true;
         self.h = f64::NAN;
     }
@@ -103,13 +111,12 @@ impl<S: StateVector<f64>, const MODES: usize> Newton<S, MODES> {
             return true;
         }
         self.h = f64::NAN;
-        let (columns, dimension) = (&self.columns[..self.dimension], self.dimension);
+        let columns = &self.columns[..self.dimension];
+        let sizes = &self.sizes.as_ref()[..self.dimension];
         for (k, (mode, factors)) in self.modes.iter().zip(&mut self.factors).enumerate() {
             let factored = match self.has_real_mode && k == 0 {
-                true => self.real.of(-h * mode.eigenvalue.0, columns, dimension),
-                false => {
-                    factors.of(Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * -h, columns, dimension)
-                }
+                true => self.real.of(-h * mode.eigenvalue.0, columns, sizes),
+                false => factors.of(Complex::new(mode.eigenvalue.0, mode.eigenvalue.1) * -h, columns, sizes),
             };
             if !factored {
                 return false;
@@ -199,28 +206,37 @@ impl<E: ComplexField<RealField = f64> + Copy> Factors<E> {
         Self { entries: [[zero; CAPACITY]; CAPACITY], pivots: [0; CAPACITY] }
     }
 
-    /// Factors `1 + factor J`, `J` given by its columns. `false` where that is singular or not finite.
-    fn of<S: AsRef<[f64]>>(&mut self, factor: E, columns: &[S], dimension: usize) -> bool {
-        for (c, column) in columns.iter().enumerate() {
-            for (r, entry) in column.as_ref().iter().enumerate().take(dimension) {
+    /// Factors `1 + factor J`, `J` given by its columns, where components are so large. `false` where that is singular or not
+    /// finite.
+    fn of<S: AsRef<[f64]>>(&mut self, factor: E, columns: &[S], sizes: &[f64]) -> bool {
+        let mut units = [0.0; CAPACITY];
+        for (c, (column, size)) in columns.iter().zip(sizes).enumerate() {
+            for (r, entry) in column.as_ref().iter().enumerate().take(sizes.len()) {
                 let diagonal = if r == c { E::one() } else { E::zero() };
                 self.entries[r][c] = factor * E::from_real(*entry) + diagonal;
+                units[r] += self.entries[r][c].norm1() * size;
             }
         }
-        self.eliminate(dimension)
+        self.eliminate(&mut units[..sizes.len()])
     }
 
-    /// Gaussian elimination in place, with the largest entry of each column as the pivot.
-    fn eliminate(&mut self, dimension: usize) -> bool {
+    /// Gaussian elimination in place. The pivot of each column is the entry that is largest in the unit of its row, what that
+    /// comes to where components have their sizes: rows of a placement and of a momentum differ by a mass, and by the
+    /// entries alone the unit of mass would choose.
+    fn eliminate(&mut self, units: &mut [f64]) -> bool {
+        let dimension = units.len();
+        // What nothing moves has no unit.
+        units.iter_mut().filter(|unit| **unit == 0.0).for_each(|unit| *unit = 1.0);
         for k in 0..dimension {
             let mut pivot = k;
             for r in k + 1..dimension {
-                if self.entries[r][k].norm1() > self.entries[pivot][k].norm1() {
+                if self.entries[r][k].norm1() / units[r] > self.entries[pivot][k].norm1() / units[pivot] {
                     pivot = r;
                 }
             }
             self.pivots[k] = pivot;
             self.entries.swap(k, pivot);
+            units.swap(k, pivot);
             let largest = self.entries[k][k].norm1();
             if !(largest > 0.0 && largest.is_finite()) {
                 return false;

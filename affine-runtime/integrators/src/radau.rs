@@ -200,7 +200,7 @@ impl<S: StateVector<f64>, F: Fn(f64, &S) -> S, J: Jacobian<S>, C: Coordinates<S>
         let (start, jacobian) = ((self.t, &self.origin, &self.slope), &self.jacobian);
         let extent = self.error_norm.extents(control.length, &self.end.value, &self.origin);
         let mut spent = 0;
-        self.newton.learn(|columns| {
+        self.newton.learn(&extent, |columns| {
             spent = jacobian.columns(&|t: f64, z: &S| field.slope(t, z), start, &extent, columns);
         });
         control.statistics.evaluations += spent;

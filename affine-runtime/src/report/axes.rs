@@ -7,6 +7,8 @@ use super::palette::{GRID, INK};
 const FIGURES: f64 = 11.0;
 /// Height of the names of axes.
 const NAMES: f64 = 12.0;
+/// Digits behind the first that tell doubles from each other.
+const MOST_DIGITS: f64 = 16.0;
 
 /// One direction of a [`Panel`].
 #[derive(Clone, Debug, PartialEq)]
@@ -116,12 +118,29 @@ fn round_spacing(spacing: f64) -> f64 {
     multiple.unwrap_or(10.0) * power
 }
 
-/// A figure with the decimals that its neighbours at the spacing need.
+/// A figure with the digits that tell it from its neighbours at the spacing: a small or large one with an exponent, where that is
+/// shorter.
 fn figure(value: f64, spacing: f64) -> String {
-    let decimals = (-(spacing.log10() + 1e-9).floor()).max(0.0) as usize;
+    let exponent = |value: f64| (value.log10() + 1e-9).floor();
+    let decimals = (-exponent(spacing)).max(0.0) as usize;
     // Multiples of the spacing come out as -0 too.
     let value = if value.abs() < 0.5 * spacing { 0.0 } else { value };
-    if decimals > 4 || value.abs() >= 1e6 { format!("{value:.1e}") } else { format!("{value:.decimals$}") }
+    let digits = (exponent(value.abs()) - exponent(spacing)).clamp(1.0, MOST_DIGITS) as usize;
+    let scientific = format!("{value:.digits$e}");
+    if decimals <= 4 && value.abs() < 1e6 {
+        return format!("{value:.decimals$}");
+    }
+    // Nothing with that many zeros is shorter.
+    if decimals > scientific.len() || value.abs() >= 1e17 {
+        return scientific;
+    }
+    let plain = format!("{value:.decimals$}");
+    if plain.len() <= scientific.len() { plain } else { scientific }
+}
+
+/// About how wide a label at an axis is.
+fn width(label: &str) -> f64 {
+    0.6 * FIGURES * label.chars().count() as f64
 }
 
 /// A time to about a hundredth of the interval it belongs to.
@@ -179,11 +198,14 @@ impl Panel {
         let Area { left, top, right, bottom } = self.area;
         let figures = Lettering::new(FIGURES, INK);
         let grid = Pen::new(GRID, 0.7);
+        // Where there is no room for a label, the grid line stays.
+        let (mut last, mut of_last) = (f64::NEG_INFINITY, 0.0);
         for (value, label) in &self.x.ticks {
-            let x = left + self.x.place(*value) * self.area.width();
+            let (x, own) = (left + self.x.place(*value) * self.area.width(), width(label));
             canvas.line((x, top), (x, bottom), grid);
-            if !label.is_empty() {
+            if !label.is_empty() && (x - last).abs() > 0.5 * (own + of_last) {
                 canvas.text(label, (x, bottom + 7.0), figures.centred().below());
+                (last, of_last) = (x, own);
             }
         }
         for (value, label) in &self.y.ticks {
@@ -198,7 +220,8 @@ impl Panel {
         canvas.line((left, top), (left, bottom), edge);
         let names = Lettering::new(NAMES, INK).centred();
         canvas.text(x_name, (self.area.centre().0, bottom + 24.0), names.below());
-        canvas.text(y_name, (left - 58.0, self.area.centre().1), names.upward());
+        let widest = self.y.ticks.iter().fold(51.0, |widest, tick| width(&tick.1).max(widest));
+        canvas.text(y_name, (left - 7.0 - widest, self.area.centre().1), names.upward());
     }
 
     /// Draws a line through points, interrupted where a point has no place.
@@ -228,6 +251,32 @@ mod tests {
         assert_eq!(labels(&Axis::tight(-0.31, 0.29, 5)), ["-0.2", "0.0", "0.2"]);
         assert_eq!(labels(&Axis::tight(3.0, 1.0, 4)), ["1.0", "1.5", "2.0", "2.5", "3.0"], "backward");
         assert_eq!(labels(&Axis::tight(0.0, 3e7, 3)), ["0", "1.0e7", "2.0e7", "3.0e7"]);
+        assert_eq!(labels(&Axis::tight(0.0, 2e-5, 2)), ["0.0e0", "1.0e-5", "2.0e-5"]);
+    }
+
+    #[test]
+    fn neighbours_have_labels_of_their_own() {
+        let late = Axis::tight(1e7, 1e7 + 2.0, 4);
+        assert_eq!(labels(&late), ["10000000.0", "10000000.5", "10000001.0", "10000001.5", "10000002.0"]);
+        assert_eq!(labels(&Axis::tight(1.0, 1.000_004, 2)), ["1.000000", "1.000002", "1.000004"]);
+        assert_eq!(labels(&Axis::tight(4.5e12, 4.52e12, 2)), ["4.50e12", "4.51e12", "4.52e12"]);
+        for middle in [0.0, 1.0, -1.0, 0.3, 7e-9, 123.0, 999_999.0, -1e7, 3.3e12, 1e20, 1e-200, 1e200] {
+            for part in [1.0, 1e-1, 1e-3, 1e-6, 1e-9, 1e-12] {
+                let half = part * if middle == 0.0 { 1.0 } else { f64::abs(middle) };
+                for count in [5, 10] {
+                    let axis = Axis::tight(middle - half, middle + half, count);
+                    let texts = labels(&axis);
+                    assert!(texts.len() > 1 && texts.windows(2).all(|pair| pair[0] != pair[1]), "{texts:?}");
+                    for (value, text) in &axis.ticks {
+                        // A text is its value, to what lies between two.
+                        let spacing = axis.ticks[1].0 - axis.ticks[0].0;
+                        let read = text.parse().unwrap_or(f64::NAN);
+                        assert!((read - value).abs() < 0.01 * spacing, "{text}");
+                    }
+                }
+            }
+        }
+        assert_eq!([brief_time(1e7 + 1.25, 2.0), brief_time(0.5, 2.0)], ["10000001.25", "0.50"]);
     }
 
     #[test]
@@ -270,6 +319,19 @@ mod tests {
         let one = Axis::decades([3.0], 6, |v| format!("{v:e}"));
         assert_eq!(labels(&one), ["2e0", "5e0"]);
         assert_eq!(labels(&one.relabel(5.0, "five")), ["2e0", "five"]);
+    }
+
+    /// On an axis of ten ticks there is room for every other long label, and the name of the other axis stands beside its labels.
+    #[test]
+    fn long_labels_have_room() {
+        let area = Area { left: 84.0, top: 0.0, right: 610.0, bottom: 130.0 };
+        let panel = Panel { area, x: Axis::tight(1e7, 1e7 + 2.0, 10), y: Axis::tight(1.0, 1.000_000_004, 2) };
+        let drawn = Canvas::draw(700, 200, |canvas| panel.frame(canvas, "t", "q"));
+        assert_eq!((panel.x.ticks.len(), drawn.matches(">10000000").count()), (11, 3), "{drawn}");
+        assert!(drawn.contains(">10000000.0<") && drawn.contains(">10000000.4<"), "{drawn}");
+        let name = drawn.lines().find(|line| line.contains(">q<")).unwrap_or_default();
+        let x = name.split(['"', '(', ' ', ',']).filter_map(|word| word.parse::<f64>().ok()).next();
+        assert!(x.is_some_and(|x| x < 84.0 - 7.0 - 11.0 * 0.5 * FIGURES), "{name}");
     }
 
     #[test]

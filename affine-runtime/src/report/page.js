@@ -2,8 +2,7 @@
 // The page of a run: a body under its affine map by WebGL 2, curves by canvas. Data are those of the run, see `page.rs`.
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
-const planar = data.n === 2;
-const last = data.t.length - 1;
+const planar = data.n === 2, last = data.t.length - 1;
 const span = data.t[last] - data.t[0];
 // Parts of the run, 0 to 1, at which there are frames and outputs.
 const part = (t) => (span === 0 ? 0 : (t - data.t[0]) / span);
@@ -191,8 +190,8 @@ function explain(id, text, colour) {
   element(id + "-legend").append(item);
 }
 
-// Curves over the run, with a cursor and marks of events; `series` are `{ name, at, values }`.
-function plotter(id, series, label) {
+// Curves over the run, with a cursor and marks of events; `series` are `{ name, at, values }`, labels of so many digits.
+function plotter(id, series, digits, prefix = "") {
   const canvas = element(id), pen = canvas.getContext("2d");
   const finite = series.flatMap((one) => one.values).filter(Number.isFinite);
   let low = least(finite), high = most(finite);
@@ -209,7 +208,7 @@ function plotter(id, series, label) {
     const across = (s) => left + s * (width - left - edge);
     const up = (y) => height - 24 - (y - low) / (high - low) * (height - 24 - edge);
     const style = getComputedStyle(document.body);
-    const write = (text, align, x, y) => { pen.textAlign = align; pen.fillText(text, x, y); };
+    const write = (text, align, x, y, room) => { pen.textAlign = align; pen.fillText(text, x, y, room); };
     const line = (x0, y0, x1, y1) => { pen.beginPath(); pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); };
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
@@ -217,11 +216,11 @@ function plotter(id, series, label) {
     Object.assign(pen, { font: "12px system-ui, sans-serif", fillStyle: style.color, strokeStyle: faint, lineWidth: 1 });
     for (const y of [low, (low + high) / 2, high]) {
       line(left, up(y), width - edge, up(y));
-      write(label(y), "right", left - 6, up(y) + 4);
+      write(prefix + figure(y, (high - low) / 2, digits), "right", left - 6, up(y) + 4, left - 8);
     }
     for (const event of data.events) line(across(part(event.t)), edge, across(part(event.t)), height - 24);
-    write(brief(data.t[0]), "left", left, height - 8);
-    write("t = " + brief(data.t[last]), "right", width - edge, height - 8);
+    write(figure(data.t[0]), "left", left, height - 8);
+    write("t = " + figure(data.t[last]), "right", width - edge, height - 8);
     pen.lineWidth = 1.6;
     series.forEach((one, i) => {
       pen.strokeStyle = COLOURS[i % COLOURS.length];
@@ -239,7 +238,9 @@ function plotter(id, series, label) {
   };
 }
 
-const brief = (value) => String(Number(value.toPrecision(5)));
+// A number to so many digits, or as many as tell it from others that far away; without more said, from times near by.
+const figure = (value, apart = Math.abs(span) / 1000, digits = 5) => Math.abs(value) <= 1e-3 * apart ? "0"
+  : String(Number(value.toPrecision(Math.min(17, Math.max(digits, 1 + Math.ceil(Math.log10(Math.abs(value) / apart)))))));
 const drifts = data.drifts.map(({ symbol, values }) => {
   let worst = 1e-17;
   return { name: symbol, at: outputs, values: values.map((value) => Math.log10(worst = Math.max(worst, some(value)))) };
@@ -248,14 +249,13 @@ const axes = Array.from({ length: data.n }, (_, a) => a);
 const stretches = axes.map((a) => ({ name: "q" + (a + 1), at: parts, values: data.stretches.map((all) => some(all[a])) }));
 const energies = data.energies.map((energy) => ({ name: energy.symbol, at: outputs, values: energy.values.map(some) }));
 for (const a of axes) explain("axes", "axis " + (a + 1) + " of the body", AXES[a]);
-const painters = [painter(), plotter("stretches", stretches, (y) => brief(Number(y.toFixed(3)))),
-  plotter("energies", energies, (y) => String(Number(y.toPrecision(3)))),
-  plotter("drifts", drifts, (y) => "1e" + y.toFixed(1))];
+const painters = [painter(), plotter("stretches", stretches, 4), plotter("energies", energies, 3),
+  plotter("drifts", drifts, 3, "1e")];
 
 function draw() {
   for (const paint of painters) paint();
   element("time").value = at;
-  element("now").textContent = "t = " + brief(data.t[0] + at * span);
+  element("now").textContent = "t = " + figure(data.t[0] + at * span);
   element("play").textContent = playing ? "Pause" : "Play";
 }
 function go(s) { at = Math.min(Math.max(s, 0), 1); draw(); }

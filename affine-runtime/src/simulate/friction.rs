@@ -3,6 +3,7 @@
 use super::layout::{Layout, has_work};
 use super::method::Method;
 use crate::error::Reason;
+use crate::inner::larger;
 use crate::model::{Model, Quantity};
 use crate::state::Phase;
 
@@ -27,7 +28,23 @@ const MOMENTA: usize = 12;
 /// `12^(1/64)`, four percent.
 const SQUARINGS: i32 = 6;
 
+/// Where the momentum that the forces of a body give it is larger than the one whose kinetic energy is 1 by more than that, friction
+/// is read off at the former: up to there rounding of their power passes for friction that takes less than a billionth of the
+/// motion in the time in which they move the body by its own size.
+const FAR: f64 = 1e6;
+
 type Form = nalgebra::SMatrix<f64, MOMENTA, MOMENTA>;
+
+/// What the equations say at a momentum.
+#[derive(Clone, Copy, Debug, Default)]
+struct Reading {
+    /// The kinetic energy.
+    energy: f64,
+    /// The power of the forces.
+    power: f64,
+    /// How fast the placement moves, over its size.
+    speed: f64,
+}
 
 /// The fastest rate at which friction takes velocities away, `1/time`, and the evaluations that it took to see.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,7 +58,8 @@ pub(super) struct Fastest {
 /// such force, or no momentum that it acts on.
 ///
 /// Both forms are read off the energies, at momenta along the axes and between two of them. An oscillation, however fast, is
-/// in neither.
+/// in neither. Forces that are no friction cancel there to the rounding of their power, which is linear in momenta: beside it
+/// friction is seen at momenta as large as these forces give the body.
 pub(super) fn rate_of_friction<const N: usize, M: Model<N>>(
     model: &M,
     (t0, start): (f64, &M::Point<f64>),
@@ -72,7 +90,7 @@ fn fastest<const N: usize, M: Model<N>>(
         from = end;
     }
     let places = places.get(..count).filter(|places| !places.is_empty())?;
-    // Kinetic energy and power at momenta `a e_i + b e_j`, and none else.
+    // At momenta `a e_i + b e_j`, and none else.
     let at = |steps: [(usize, f64); 2]| {
         let mut state = reduced;
         places.iter().for_each(|place| state.as_mut()[*place] = 0.0);
@@ -84,26 +102,45 @@ fn fastest<const N: usize, M: Model<N>>(
         let point = model.expand(t0, &constants, &state);
         let velocity = model.velocity(&point);
         let internal = point.pi().0.0.transpose().dot(&velocity.phi_dot);
-        (0.5 * (internal + point.p().dot(&velocity.x_dot)), rates.as_ref()[work])
+        let size = point.phi().norm();
+        let speed = velocity.phi_dot.norm() / size + velocity.x_dot.norm() / (size + point.x().norm());
+        let energy = 0.5 * (internal + point.p().dot(&velocity.x_dot));
+        Reading { energy, power: rates.as_ref()[work], speed }
     };
+    let unit = unit(at([(0, 1.0), (0, 0.0)]).energy);
+    let (mut forms, natural) = forms(&at, count, unit);
+    if natural > FAR && natural.is_finite() {
+        forms = self::forms(&at, count, unit * natural).0;
+    }
+    let [inertia, friction] = forms;
+    Some(spectral_radius(inertia.lu().solve(&friction)?))
+}
+
+/// The forms of the kinetic energy and of friction over so many momenta, in multiples of a unit; and the largest momentum that forces
+/// which are no friction give the body while it moves by its own size, in that unit.
+fn forms(at: &dyn Fn([(usize, f64); 2]) -> Reading, count: usize, unit: f64) -> ([Form; 2], f64) {
     let (mut inertia, mut friction) = (Form::identity(), Form::zeros());
-    let unit = unit(at([(0, 1.0), (0, 0.0)]).0);
-    let (energy, power) = at([(0, 0.0); 2]);
-    let mut before = [(0.0, 0.0); MOMENTA];
+    let (rest, mut natural) = (at([(0, 0.0); 2]), 0.0);
+    let mut before = [Reading::default(); MOMENTA];
     for i in 0..count {
         let (ahead, behind) = (at([(i, unit), (0, 0.0)]), at([(i, -unit), (0, 0.0)]));
-        inertia[(i, i)] = ahead.0 + behind.0 - 2.0 * energy;
-        friction[(i, i)] = power - 0.5 * (ahead.1 + behind.1);
+        inertia[(i, i)] = ahead.energy + behind.energy - 2.0 * rest.energy;
+        friction[(i, i)] = rest.power - 0.5 * (ahead.power + behind.power);
+        // There the energy is the work of the forces, power over speed, along the size of the body.
+        let push = 0.5 * (ahead.power - behind.power).abs();
+        if push > 0.0 {
+            natural = larger(natural, libm::sqrt(push / (ahead.speed * ahead.energy.abs())));
+        }
         for (j, other) in before.iter().enumerate().take(i) {
             let both = at([(i, unit), (j, unit)]);
-            let mixed_energy = both.0 - ahead.0 - other.0 + energy;
-            let mixed_power = -0.5 * (both.1 - ahead.1 - other.1 + power);
+            let mixed_energy = both.energy - ahead.energy - other.energy + rest.energy;
+            let mixed_power = -0.5 * (both.power - ahead.power - other.power + rest.power);
             (inertia[(i, j)], inertia[(j, i)]) = (mixed_energy, mixed_energy);
             (friction[(i, j)], friction[(j, i)]) = (mixed_power, mixed_power);
         }
         before[i] = ahead;
     }
-    Some(spectral_radius(inertia.lu().solve(&friction)?))
+    ([inertia, friction], natural)
 }
 
 /// A momentum whose kinetic energy is about 1, by that of the momentum 1, in whatever units.

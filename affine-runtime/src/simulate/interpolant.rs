@@ -23,7 +23,7 @@ const CLOSE: f64 = (1 << 15) as f64 * f64::EPSILON;
 const LARGEST_ROUNDING: f64 = 1e-3;
 /// Rounding makes so many of its third differences of the difference from a polynomial, at the most.
 const OF_ROUNDING: f64 = 16.0;
-/// Times are known to a few roundings, and the motion changes by its size within a step.
+/// Times are known to a few roundings.
 const ROUNDINGS: f64 = 4.0;
 /// A part of the interval by which a value beside a Chebyshev point does not differ from that there. Reciprocals of smaller ones
 /// may be no numbers.
@@ -105,6 +105,8 @@ struct Fitted {
     values: Vec<Numbers>,
     scales: [f64; 4],
     difference: f64,
+    /// What it may be: that of the fit, or what the rounding of times makes of the motion.
+    bound: f64,
 }
 
 impl<'f, const N: usize> Fit<'f, N> {
@@ -127,9 +129,6 @@ impl<'f, const N: usize> Fit<'f, N> {
         end: (f64, Numbers),
         each: &mut dyn FnMut(Polynomial),
     ) -> Result<(), Reason> {
-        // Times that are rounded are those of another point.
-        let rounding = f64::EPSILON * larger(begin.0.abs(), end.0.abs()) / (end.0 - begin.0).abs();
-        self.bound = larger(self.bound, ROUNDINGS * rounding);
         self.halved(begin, end, (0, f64::INFINITY), each)
     }
 
@@ -148,7 +147,7 @@ impl<'f, const N: usize> Fit<'f, N> {
         }
         let highest = if halvings > MOST_HALVINGS_OF_ALL { LOWEST_DEGREE } else { HIGHEST_DEGREE };
         let fitted = self.fitted(begin, end, highest)?;
-        let is_close = fitted.difference <= self.bound
+        let is_close = fitted.difference <= fitted.bound
             || fitted.difference > 0.5 * before && self.is_rounding(span, &fitted)?;
         if is_close {
             *self.left -= 1;
@@ -171,7 +170,11 @@ impl<'f, const N: usize> Fit<'f, N> {
         let (mut degree, mut before) = (1, f64::INFINITY);
         let mut values = vec![begin, end];
         loop {
-            let (scales, enough) = (scales::<N>(&values), larger(self.bound, HARDLY_NEARER * before));
+            let scales = scales::<N>(&values);
+            // Times that are rounded are those of another point.
+            let rounding = ROUNDINGS * f64::EPSILON * larger(from.abs(), to.abs()) / (to - from).abs();
+            let bound = larger(self.bound, rounding * steepest::<N>(&values, &scales));
+            let enough = larger(bound, HARDLY_NEARER * before);
             let (mut finer, mut difference) = (Vec::with_capacity(2 * degree + 1), 0.0);
             for (k, value) in values[..degree].iter().enumerate() {
                 let part = chebyshev(2 * k + 1, 2 * degree);
@@ -180,11 +183,11 @@ impl<'f, const N: usize> Fit<'f, N> {
                 difference = larger(difference, apart::<N>(&next, &between, &scales));
                 finer.extend([*value, next]);
                 if degree >= LOWEST_DEGREE && difference > enough {
-                    return Ok(Fitted { values, scales, difference });
+                    return Ok(Fitted { values, scales, difference, bound });
                 }
             }
-            if degree >= LOWEST_DEGREE && (difference <= self.bound || degree >= highest) {
-                return Ok(Fitted { values, scales, difference });
+            if degree >= LOWEST_DEGREE && (difference <= bound || degree >= highest) {
+                return Ok(Fitted { values, scales, difference, bound });
             }
             finer.push(end);
             before = if degree >= LOWEST_DEGREE { difference } else { f64::INFINITY };
@@ -223,6 +226,16 @@ fn apart<const N: usize>(a: &Numbers, b: &Numbers, scales: &[f64; 4]) -> f64 {
     groups::<N>().into_iter().zip(scales).fold(0.0, |most, (group, scale)| match sized(&off, group) {
         0.0 => most,
         off => larger(most, off / scale),
+    })
+}
+
+/// The largest difference between neighbours among values at the Chebyshev points of an interval, over the part of it that is between
+/// them.
+fn steepest<const N: usize>(values: &[Numbers], scales: &[f64; 4]) -> f64 {
+    let degree = values.len() - 1;
+    values.windows(2).enumerate().fold(0.0, |most, (k, pair)| {
+        let between = chebyshev(k + 1, degree) - chebyshev(k, degree);
+        larger(most, apart::<N>(&pair[0], &pair[1], scales) / between)
     })
 }
 

@@ -171,8 +171,8 @@ impl<const N: usize, P: Phase<N>> Trajectory<N, P> {
     }
 
     /// The phase point at any time of a run that was asked to be [`dense`](super::Simulation::dense), an output or not: within a
-    /// third of the tolerance of what an output there would be, or of the rounding of that, and the same where a step ends or a
-    /// closed form is known. At the time of an event that changes the point, the point before.
+    /// third of the tolerance of what an output there would be, or of what some ten roundings of the time make of that, and the
+    /// same where a step ends or a closed form is known. At the time of an event that changes the point, the point before.
     ///
     /// # Errors
     /// A [`Stop`] with [`Setting::NotDense`] for a run that was not asked to be, and with [`Setting::OutsideRun`] for a time

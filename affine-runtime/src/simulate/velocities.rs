@@ -10,7 +10,7 @@ use crate::scalar::Real;
 
 /// Components of the affine velocity of a body in space.
 const COMPONENTS: usize = 9;
-/// What depends on the placement by less than this part does not.
+/// Less than this part of what something is made from is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The frame in which a velocity is read.
@@ -89,13 +89,7 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Variables<N, M, H> {
         let state = self.state(t, z);
         let mut rates = self.equations(t, &state);
         if let Some((frame, _, momentum)) = self.blocks() {
-            let mut dual = M::Reduced::<Dual<f64>>::zeros();
-            for (dual, (value, slope)) in
-                dual.as_mut().iter_mut().zip(state.as_ref().iter().zip(rates.as_ref()))
-            {
-                *dual = Dual { value: *value, slope: *slope };
-            }
-            let velocity = self.varied_velocity(frame, t, &dual);
+            let velocity = self.varied_velocity(frame, t, &state, &rates);
             let block = rates.as_mut()[momentum].iter_mut();
             block.zip(velocity.transpose().iter()).for_each(|(rate, velocity)| *rate = velocity.slope);
         }
@@ -111,15 +105,35 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Variables<N, M, H> {
         Some((self.frame?, Self::PLACEMENT?, Self::MOMENTUM?))
     }
 
-    /// The affine velocity of a state that moves, with its time derivative.
-    fn varied_velocity(&self, frame: Frame, t: f64, state: &M::Reduced<Dual<f64>>) -> Matrix<N, Dual<f64>> {
+    /// The affine velocity of a state that moves at given rates, with its time derivative.
+    fn varied_velocity(
+        &self,
+        frame: Frame,
+        t: f64,
+        state: &M::Reduced<f64>,
+        rates: &M::Reduced<f64>,
+    ) -> Matrix<N, Dual<f64>> {
+        let mut moving = M::Reduced::<Dual<f64>>::zeros();
+        for (dual, (value, slope)) in
+            moving.as_mut().iter_mut().zip(state.as_ref().iter().zip(rates.as_ref()))
+        {
+            *dual = Dual { value: *value, slope: *slope };
+        }
         let model = self.handle.model();
         let t = Dual { value: t, slope: 1.0 };
-        let rates = model.reduced_equations(t, &self.varied, &model.renewed(state));
+        let rates = model.reduced_equations(t, &self.varied, &model.renewed(&moving));
         let placement = Self::PLACEMENT.unwrap_or(0..0);
         let block =
             |values: &M::Reduced<Dual<f64>>| Matrix::from_row_slice(&values.as_ref()[placement.clone()]);
-        frame.velocity(&block(state), &block(&rates))
+        frame.velocity(&block(&moving), &block(&rates))
+    }
+
+    /// How fast the affine velocity is, or is made by forces while the body moves by its own size; 1 where neither is.
+    fn speed(&self, t: f64, state: &M::Reduced<f64>) -> f64 {
+        let velocity = self.varied_velocity(Frame::Comoving, t, state, &self.equations(t, state));
+        let acceleration = velocity.map(|entry| entry.slope).norm();
+        let speed = velocity.map(|entry| entry.value).norm() + libm::sqrt(acceleration);
+        if speed.is_finite() && speed > 0.0 { speed } else { 1.0 }
     }
 
     /// The affine velocity of a state.
@@ -188,15 +202,22 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Variables<N, M, H> {
             elsewhere.as_mut()[place] *= 1.0 + 0.01 * ((k * k) % 7) as f64;
         }
         let work = const { Layout::of(M::DESCRIPTION.reduced, N) }.work?;
-        let power = |frame: Frame, state: &M::Reduced<f64>, size: f64| {
+        let speed = self.speed(t, state);
+        let power = |frame: Frame, state: &M::Reduced<f64>, part: f64| {
             let mut moving = *state;
+            let size = part * speed;
             let pattern = Matrix::<N>::from_fn(|i, j| size * (1.0 + ((2 * i + j * j) % 5) as f64));
             put(&mut moving.as_mut()[momentum.clone()], &pattern);
             self.equations(t, &self.state_in(frame, t, &moving)).as_ref()[work]
         };
         let dependence = |frame: Frame| {
-            let [here, there] =
-                [state, &elsewhere].map(|state| power(frame, state, 1.0) - power(frame, state, 0.0));
+            // The power of other forces is linear in the velocity: that of friction, and where there is none, theirs.
+            let [here, there] = [state, &elsewhere].map(|state| {
+                let [ahead, behind] = [1.0, -1.0].map(|part| power(frame, state, part));
+                let of_friction = ahead + behind - 2.0 * power(frame, state, 0.0);
+                let of_others = ahead - behind;
+                if of_friction.abs() > ROUNDING * of_others.abs() { of_friction } else { of_others }
+            });
             (here - there).abs() / (here.abs() + there.abs())
         };
         let (body, space) = (dependence(Frame::Comoving), dependence(Frame::Spatial));
@@ -209,7 +230,7 @@ impl<const N: usize, M: Model<N>, H: Handle<N, Model = M>> Variables<N, M, H> {
         let [again, before] =
             [&again, state].map(|state| Matrix::<N>::from_row_slice(&state.as_ref()[momentum.clone()]));
         let is_linear = (again - before).norm() <= ROUNDING * before.norm();
-        let evaluations = 8 * (solving(N) + 1) + 2 + solving(N);
+        let evaluations = 12 * (solving(N) + 1) + 4 + solving(N);
         Some(((!is_constant && is_linear).then_some(frame), evaluations))
     }
 }
