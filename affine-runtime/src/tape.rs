@@ -28,6 +28,15 @@ impl Operand {
 /// An operation with what it reads; those of one or two numbers read zeros besides.
 pub(crate) type Operation = (Kind, [Operand; 3]);
 
+/// What was done, in order, and what was compared on the way.
+#[derive(Clone, Debug)]
+pub(crate) struct Tape {
+    pub(crate) operations: Vec<Operation>,
+    /// Numbers of which one at least depends on the arguments, and whether they were equal: with another answer other operations
+    /// may follow.
+    pub(crate) comparisons: Vec<([Operand; 2], bool)>,
+}
+
 macro_rules! operations {
     ({ $($operator:ident $operate:ident $assign:ident $operate_assign:ident;)* } { $($name:ident $function:ident;)* }) => {
         /// What is done.
@@ -128,7 +137,7 @@ operations! {
 }
 
 thread_local! {
-    static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
+    static TAPE: RefCell<Tape> = const { RefCell::new(Tape { operations: Vec::new(), comparisons: Vec::new() }) };
 }
 
 /// Runs `work`, which is given that many arguments, and returns what is recorded with the operands that it returns.
@@ -136,9 +145,10 @@ thread_local! {
 pub(crate) fn recorded(
     arguments: &[f64],
     work: impl FnOnce(&[Recorded]) -> Vec<Recorded>,
-) -> (Vec<Operation>, Vec<Operand>) {
+) -> (Tape, Vec<Operand>) {
     let argument = (Kind::Argument, [Operand::Constant(0.0); 3]);
-    let before = TAPE.replace(vec![argument; arguments.len()]);
+    let start = Tape { operations: vec![argument; arguments.len()], comparisons: Vec::new() };
+    let before = TAPE.replace(start);
     let numbers = arguments.iter().enumerate().map(|(k, value)| Recorded { value: *value, node: Some(k) });
     let results = work(&numbers.collect::<Vec<_>>());
     let tape = TAPE.replace(before);
@@ -162,20 +172,26 @@ impl Recorded {
         if operands.iter().all(|operand| operand.node.is_none()) {
             return Self { value, node: None };
         }
-        TAPE.with_borrow_mut(|tape| {
-            tape.push((kind, operands.map(|operand| operand.operand())));
-            Self { value, node: Some(tape.len() - 1) }
+        TAPE.with_borrow_mut(|Tape { operations, .. }| {
+            operations.push((kind, operands.map(|operand| operand.operand())));
+            Self { value, node: Some(operations.len() - 1) }
         })
     }
 }
 
-/// Comparisons choose a branch as the values do.
+/// Comparisons choose a branch as the values do, and are recorded as well.
 impl PartialEq for Recorded {
     fn eq(&self, other: &Self) -> bool {
-        self.value == other.value
+        let (both, is_equal) = ([self, other], self.value == other.value);
+        if both.iter().any(|number| number.node.is_some()) {
+            let comparison = (both.map(Self::operand), is_equal);
+            TAPE.with_borrow_mut(|tape| tape.comparisons.push(comparison));
+        }
+        is_equal
     }
 }
 
+/// Equations alone are recorded, and ask for no order, see [`Scalar`].
 impl PartialOrd for Recorded {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
@@ -194,7 +210,7 @@ impl Zero for Recorded {
         Self { value: 0.0, node: None }
     }
     fn is_zero(&self) -> bool {
-        self.value == 0.0
+        *self == Self::zero()
     }
 }
 
