@@ -30,7 +30,6 @@ use crate::tape::{Kind, Operand, Recorded, Tape, recorded};
 #[derive(Clone, Debug)]
 pub struct JacobianMatrix {
     tape: Tape,
-    results: Vec<Operand>,
     components: usize,
 }
 
@@ -59,8 +58,8 @@ impl JacobianMatrix {
     fn recorded(t: f64, state: &[f64], f: impl FnOnce(Recorded, &[Recorded]) -> Vec<Recorded>) -> Self {
         let components = state.len();
         let arguments = [state, &[t]].concat();
-        let (tape, results) = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
-        Self { tape, results, components }
+        let tape = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
+        Self { tape, components }
     }
 
     /// Whether the equations have a branch: whether numbers are equal that depend on the state or the time.
@@ -83,7 +82,7 @@ impl JacobianMatrix {
             timed.push((0..3).any(|k| is_timed(&operands[k], &timed) && !vanishes(k)));
         }
         let compared = self.tape.comparisons.iter().flat_map(|(both, _)| both);
-        self.results.iter().chain(compared).any(|number| is_timed(number, &timed))
+        self.tape.results.iter().chain(compared).any(|number| is_timed(number, &timed))
     }
 
     /// `df_i/dy_k` at a time and a state, in row `i` and column `k`. Any number will do, in the precision of doubles.
@@ -95,7 +94,7 @@ impl JacobianMatrix {
         arguments.iter_mut().zip(state.as_ref()).take(self.components).for_each(|(a, value)| *a = *value);
         arguments[self.components] = t;
         let mut matrix = DMatrix::from_element(self.components, self.components, T::zero());
-        differentiated((&self.tape, &self.results), (&arguments, self.components), |row, column, value| {
+        differentiated(&self.tape, (&arguments, self.components), |row, column, value| {
             matrix[(row, column)] = value;
         });
         matrix
@@ -108,42 +107,20 @@ fn state_of<S: StateVector<Recorded>>(numbers: &[Recorded]) -> S {
     state
 }
 
-/// The derivative of an operation by one of the numbers that it reads, up to the sign, which is minus where it is `true`.
-/// `None` is 1, by which nothing is multiplied.
-fn partial<T: Scalar>(kind: Kind, k: usize, operands: [T; 3]) -> (bool, Option<T>) {
-    match (kind, k) {
-        (Kind::Add, _) | (Kind::Sub, 0) | (Kind::Fma, 2) => (false, None),
-        (Kind::Sub | Kind::Neg, _) => (true, None),
-        (Kind::Mul | Kind::Fma, k) => (false, Some(operands[1 - k])),
-        _ => {
-            let mut varied = operands.map(Dual::fixed);
-            varied[k].slope = T::one();
-            (false, Some(kind.of(varied).slope))
-        }
-    }
-}
-
 /// The derivatives of results by so many of the first arguments that are not zero, each given to `each` with its row and column.
 fn differentiated<T: Scalar>(
-    (tape, results): (&Tape, &[Operand]),
+    tape: &Tape,
     (arguments, columns): (&[T], usize),
     mut each: impl FnMut(usize, usize, T),
 ) {
-    // Where stretches coincide, numbers on the way depend on the direction of which they are the derivatives, and so do branches.
-    let is_apart = |kind: Kind| matches!(kind, Kind::FirstApart | Kind::SecondApart);
-    if !tape.comparisons.is_empty() || tape.operations.iter().any(|(kind, _)| is_apart(*kind)) {
+    if tape.is_directed() {
         for column in 0..columns {
             let mut varied: Vec<_> = arguments.iter().copied().map(Dual::fixed).collect();
             varied[column].slope = T::one();
-            let values = evaluated(tape, varied);
-            let is_taken =
-                |([a, b], is_equal): &([Operand; 2], bool)| (a.of(&values) == b.of(&values)) == *is_equal;
-            let is_this_branch = tape.comparisons.iter().all(is_taken);
-            for (row, result) in results.iter().enumerate() {
-                let slope =
-                    if is_this_branch { result.of(&values).slope } else { T::constant(f64::NAN, 0.0) };
-                each(row, column, slope);
-            }
+            let values = tape.values(varied);
+            let unless_other = if tape.is_branch_of(&values) { T::one() } else { T::constant(f64::NAN, 0.0) };
+            let slopes = tape.results.iter().map(|result| result.of(&values).slope * unless_other);
+            slopes.enumerate().for_each(|(row, slope)| each(row, column, slope));
         }
         return;
     }
@@ -157,7 +134,7 @@ fn differentiated<T: Scalar>(
         let mut sums: Vec<(usize, T)> = Vec::new();
         for (k, operand) in operands.iter().enumerate() {
             let Operand::Node(from) = *operand else { continue };
-            let (is_negative, partial) = partial(*kind, k, numbers);
+            let (is_negative, partial) = kind.partial(k, numbers);
             for (column, slope) in &slopes[from] {
                 let term = match partial {
                     None => *slope,
@@ -176,17 +153,9 @@ fn differentiated<T: Scalar>(
         values.push(kind.of(numbers));
         slopes.push(sums);
     }
-    for (row, result) in results.iter().enumerate() {
+    for (row, result) in tape.results.iter().enumerate() {
         if let Operand::Node(node) = *result {
             slopes[node].iter().for_each(|(column, slope)| each(row, *column, *slope));
         }
     }
-}
-
-/// The values of all operations.
-fn evaluated<T: Scalar>(tape: &Tape, mut values: Vec<T>) -> Vec<T> {
-    for (kind, operands) in &tape.operations[values.len()..] {
-        values.push(kind.of(operands.map(|operand| operand.of(&values))));
-    }
-    values
 }
