@@ -1,10 +1,12 @@
-//! Dual numbers of other scalars than doubles: of lanes against each lane alone, of singles against differences of doubles.
+//! Dual numbers of other scalars than doubles: of lanes against each lane alone, of other precision against differences of doubles.
 
+use affine_runtime::analysis::JacobianMatrix;
 use affine_runtime::dual::Dual;
 use affine_runtime::lanes::{F64x8, Lanes};
 use affine_runtime::model::{Model, StateVector};
 use affine_runtime::prelude::*;
-use affine_runtime::scalar::Scalar;
+use affine_runtime::scalar::{Real, Scalar};
+use qd::Quad;
 
 #[affine_model(dim = 3, kinetic(dalembert = 1), potential = cosh(Q1) + cosh(Q2) + cosh(Q3))]
 struct Spatial;
@@ -32,19 +34,24 @@ fn slopes<const N: usize, M: Model<N>, T: Scalar>(
     rates.as_ref().iter().map(|rate| rate.slope).collect()
 }
 
-/// Several points, each in a lane.
+/// Several points, each in a lane: dual numbers, and what is recorded.
 fn assert_lanes<const N: usize, M: Model<N>>(model: &M, points: &[&[f64]]) {
+    let own = points[0].len();
+    let mut first = M::Full::<f64>::zeros();
+    first.as_mut().copy_from_slice(points[0]);
+    let jacobian = JacobianMatrix::of(model, 0.0, &model.unflatten(&first));
     let lane_of = |lane: usize, k: usize| points[lane % points.len()][k];
-    for axis in 0..points[0].len() {
-        let together = slopes(model, axis, |k| F64x8::from_lanes(|lane| lane_of(lane, k)));
+    let in_lanes: Vec<F64x8> = (0..own).map(|k| F64x8::from_lanes(|lane| lane_of(lane, k))).collect();
+    let recorded = jacobian.at(F64x8::constant(0.0, 0.0), &in_lanes);
+    for axis in 0..own {
+        let together = slopes(model, axis, |k| in_lanes[k]);
         for lane in 0..F64x8::LANES {
             let alone = slopes(model, axis, |k| lane_of(lane, k));
             for (row, (together, alone)) in together.iter().zip(alone).enumerate() {
-                let found = together.lane(lane);
-                assert!(
-                    (found - alone).abs() <= 1e-12 * (1.0 + alone.abs()),
-                    "{lane} {row} {axis}: {found} {alone}"
-                );
+                for found in [together.lane(lane), recorded[(row, axis)].lane(lane)] {
+                    let is_near = (found - alone).abs() <= 1e-12 * (1.0 + alone.abs());
+                    assert!(is_near, "{lane} {row} {axis}: {found} {alone}");
+                }
             }
         }
     }
@@ -71,11 +78,7 @@ fn lanes_are_what_they_are_alone() {
 }
 
 /// The slope of an energy along an entry of the placement.
-fn slope_of_energy<const N: usize, M: Model<N>, T: affine_runtime::scalar::Real>(
-    model: &M,
-    phi: &[f32],
-    axis: usize,
-) -> f64 {
+fn slope_of_energy<const N: usize, M: Model<N>, T: Real>(model: &M, phi: &[f32], axis: usize) -> f64 {
     let mut varied = M::Full::<Dual<T>>::zeros();
     varied
         .as_mut()
@@ -86,8 +89,8 @@ fn slope_of_energy<const N: usize, M: Model<N>, T: affine_runtime::scalar::Real>
     model.hamiltonian(Dual::constant(0.0, 0.0), &model.unflatten(&varied)).slope.to_f64()
 }
 
-/// Singles have half of the digits of doubles, and stretches coincide in them that are further apart.
-fn assert_singles<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) {
+/// Stretches coincide that are further apart in singles, and nearer in double-double numbers.
+fn assert_precisions<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) {
     const H: f64 = 1e-4;
     let phi: Vec<f32> = phi.transpose().iter().map(|entry| *entry as f32).collect();
     for axis in 0..N * N {
@@ -98,18 +101,23 @@ fn assert_singles<const N: usize, M: Model<N>>(model: &M, phi: &Matrix<N>) {
             model.hamiltonian(0.0, &model.unflatten(&full))
         };
         let difference = (8.0 * (energy(1.0) - energy(-1.0)) - (energy(2.0) - energy(-2.0))) / (12.0 * H);
-        let found = slope_of_energy::<N, M, f32>(model, &phi, axis);
-        assert!((found - difference).abs() < 1e-3, "{phi:?} {axis}: {found} {difference}");
+        let single = slope_of_energy::<N, M, f32>(model, &phi, axis);
+        assert!((single - difference).abs() < 1e-3, "{phi:?} {axis}: {single} {difference}");
+        let quad = slope_of_energy::<N, M, Quad>(model, &phi, axis);
+        assert!((quad - difference).abs() < 1e-10, "{phi:?} {axis}: {quad} {difference}");
     }
 }
 
 #[test]
-fn singles_have_slopes_near_stretches_that_coincide() {
-    for off in [0.0, 1e-12, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1] {
-        assert_singles(&Planar, &Matrix::<2>::new(1.1, off, 0.0, 1.1));
-        assert_singles(&Spatial, &Matrix::<3>::new(1.1, off, 0.0, 0.0, 1.1, 0.0, 0.0, 0.0, 1.1 + 1e-3 * off));
+fn any_precision_has_slopes_near_stretches_that_coincide() {
+    for off in [0.0, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1] {
+        assert_precisions(&Planar, &Matrix::<2>::new(1.1, off, 0.0, 1.1));
+        assert_precisions(
+            &Spatial,
+            &Matrix::<3>::new(1.1, off, 0.0, 0.0, 1.1, 0.0, 0.0, 0.0, 1.1 + 1e-3 * off),
+        );
         let turned = Matrix::<3>::new(0.8, 0.6, 0.0, -0.6, 0.8, 0.0, 0.0, 0.0, 1.0);
         let strain = Matrix::<3>::new(1.0, 1.0, 0.0, 1.0, -1.0, 1.0, 0.0, 1.0, 1.0) * off;
-        assert_singles(&Spatial, &(turned * (Matrix::<3>::identity() + strain)));
+        assert_precisions(&Spatial, &(turned * (Matrix::<3>::identity() + strain)));
     }
 }
