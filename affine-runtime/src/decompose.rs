@@ -94,7 +94,8 @@ pub trait LinearMap<const N: usize, T: Scalar>: Borrow<Matrix<N, T>> {
     /// One-sided Jacobi rotations (Hestenes, J. SIAM 6 (1958) 51). Each stretch has an error of a few units of rounding of the
     /// largest one. Of `phi = 1 + H` with a small `H` the errors of `q_a`, and of sums `R diag(f(q)) R^T`, are a few units of
     /// rounding of `|H|`. Where stretches coincide any axes are right, and some are returned. Not finite where `phi` is not,
-    /// or has a column of zeros.
+    /// or has a column of zeros. Squares of entries must have all their digits, too: largest entries between 1e-140 and 1e150 in
+    /// doubles. [`TwoPolar`] takes all others.
     fn principal_log_stretches(&self) -> ([T; N], [T; N], Matrix<N, T>, Matrix<N, T>) {
         let phi: &Matrix<N, T> = self.borrow();
         let (stretches, logarithms, stretched, axes) =

@@ -10,8 +10,11 @@ use crate::model::StateVector;
 use crate::scalar::{Real, Scalar};
 
 /// Squares of stretches that differ by this part of their sum coincide, for derivatives: these err by about as much then, and
-/// by the rounding of numbers over the difference otherwise.
-const COINCIDENT: f64 = 1e-8;
+/// by the rounding of numbers over the difference otherwise. It is the root of that rounding, by which `3 (4/3 - 1)` is not 1.
+fn coincident<T: Scalar>() -> T {
+    let [three, four] = [3.0, 4.0].map(|number| T::constant(number, 0.0));
+    (three * (four / three - T::one()) - T::one()).abs().sqrt()
+}
 
 /// `value + epsilon slope` with `epsilon^2 = 0`: what is computed with it is differentiated.
 ///
@@ -34,6 +37,11 @@ impl<T: Scalar> Dual<T> {
     /// `f(value) + epsilon f'(value) slope`.
     fn chain(self, value: T, derivative: T) -> Self {
         Self { value, slope: derivative * self.slope }
+    }
+
+    /// The same of a root, whose derivative at zero is infinite: what does not change has a root that does not.
+    fn chain_of_root(self, root: T, derivative: T) -> Self {
+        Self { value: root, slope: self.slope.times_any(derivative) }
     }
 }
 
@@ -127,24 +135,26 @@ impl<T: Scalar> Scalar for Dual<T> {
         Self::fixed(T::constant(hi, lo))
     }
     fn told_apart([a, b]: [Self; 2], size: Self) -> [Self; 2] {
-        let bound = size.value * T::constant(COINCIDENT, 0.0);
-        if a.value.abs().max(b.value.abs()).max(bound) == bound {
-            [Self::fixed(a.slope), Self::fixed(b.slope)]
-        } else {
-            [a, b]
-        }
+        let excess = size.value * coincident() - a.value.abs().max(b.value.abs());
+        // 1 where both vanish and 0 elsewhere, which lanes may do at once.
+        let vanish = (T::one() + excess.signum()) * T::constant(0.5, 0.0);
+        let apart = T::one() - vanish;
+        [a, b].map(|own| Self {
+            value: vanish.times_any(own.slope) + apart.times_any(own.value),
+            slope: apart.times_any(own.slope),
+        })
+    }
+    fn times_any(self, other: Self) -> Self {
+        let slope = self.slope.times_any(other.value) + self.value.times_any(other.slope);
+        Self { value: self.value.times_any(other.value), slope }
     }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        // What does not change has a root that does not, of zero too.
-        if self.slope == T::zero() {
-            return Self::fixed(root);
-        }
-        self.chain(root, T::one() / (root + root))
+        self.chain_of_root(root, T::one() / (root + root))
     }
     fn cbrt(self) -> Self {
         let root = self.value.cbrt();
-        self.chain(root, T::one() / (T::constant(3.0, 0.0) * root * root))
+        self.chain_of_root(root, T::one() / (T::constant(3.0, 0.0) * root * root))
     }
     fn exp(self) -> Self {
         let value = self.value.exp();

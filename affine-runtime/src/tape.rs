@@ -6,6 +6,7 @@ use std::cell::RefCell;
 
 use num_traits::{One, Zero};
 
+use crate::dual::Dual;
 use crate::scalar::{Real, Scalar};
 
 /// What an operation reads: what an earlier one gave, or a number that does not depend on the arguments.
@@ -27,6 +28,60 @@ impl Operand {
 
 /// An operation with what it reads; those of one or two numbers read zeros besides.
 pub(crate) type Operation = (Kind, [Operand; 3]);
+
+/// What was done, in order, with what came of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Tape {
+    pub(crate) operations: Vec<Operation>,
+    /// Numbers of which one at least depends on the arguments, and whether they were equal: with another answer other operations
+    /// may follow.
+    pub(crate) comparisons: Vec<([Operand; 2], bool)>,
+    pub(crate) results: Vec<Operand>,
+}
+
+impl Tape {
+    /// Before anything is done with so many arguments.
+    const fn new(operations: Vec<Operation>) -> Self {
+        Self { operations, comparisons: Vec::new(), results: Vec::new() }
+    }
+
+    /// The values of all operations, from those of the arguments.
+    pub(crate) fn values<T: Scalar>(&self, mut values: Vec<T>) -> Vec<T> {
+        for (kind, operands) in &self.operations[values.len()..] {
+            values.push(kind.of(operands.map(|operand| operand.of(&values))));
+        }
+        values
+    }
+
+    /// Whether what these values come from would do the same operations: whether what is compared is equal where it was.
+    pub(crate) fn is_branch_of<T: Scalar>(&self, values: &[T]) -> bool {
+        self.comparisons.iter().all(|([a, b], is_equal)| (a.of(values) == b.of(values)) == *is_equal)
+    }
+
+    /// Whether derivatives depend on the direction along which they are taken: where stretches coincide, numbers on the way do, and
+    /// at the ends of branches so do these.
+    pub(crate) fn is_directed(&self) -> bool {
+        let is_apart = |(kind, _): &Operation| matches!(kind, Kind::FirstApart | Kind::SecondApart);
+        !self.comparisons.is_empty() || self.operations.iter().any(is_apart)
+    }
+}
+
+impl Kind {
+    /// The derivative by one of the numbers that are read, up to the sign, which is minus where it is `true`. `None` is 1, by which
+    /// nothing is multiplied.
+    pub(crate) fn partial<T: Scalar>(self, k: usize, operands: [T; 3]) -> (bool, Option<T>) {
+        match (self, k) {
+            (Self::Add, _) | (Self::Sub, 0) | (Self::Fma, 2) => (false, None),
+            (Self::Sub | Self::Neg, _) => (true, None),
+            (Self::Mul | Self::Fma, k) => (false, Some(operands[1 - k])),
+            _ => {
+                let mut varied = operands.map(Dual::fixed);
+                varied[k].slope = T::one();
+                (false, Some(self.of(varied).slope))
+            }
+        }
+    }
+}
 
 macro_rules! operations {
     ({ $($operator:ident $operate:ident $assign:ident $operate_assign:ident;)* } { $($name:ident $function:ident;)* }) => {
@@ -128,21 +183,17 @@ operations! {
 }
 
 thread_local! {
-    static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
+    static TAPE: RefCell<Tape> = const { RefCell::new(Tape::new(Vec::new())) };
 }
 
-/// Runs `work`, which is given that many arguments, and returns what is recorded with the operands that it returns.
+/// Runs `work`, which is given that many arguments, and returns what is recorded with what it returns.
 /// What depends on no argument is computed and not recorded.
-pub(crate) fn recorded(
-    arguments: &[f64],
-    work: impl FnOnce(&[Recorded]) -> Vec<Recorded>,
-) -> (Vec<Operation>, Vec<Operand>) {
+pub(crate) fn recorded(arguments: &[f64], work: impl FnOnce(&[Recorded]) -> Vec<Recorded>) -> Tape {
     let argument = (Kind::Argument, [Operand::Constant(0.0); 3]);
-    let before = TAPE.replace(vec![argument; arguments.len()]);
+    let before = TAPE.replace(Tape::new(vec![argument; arguments.len()]));
     let numbers = arguments.iter().enumerate().map(|(k, value)| Recorded { value: *value, node: Some(k) });
     let results = work(&numbers.collect::<Vec<_>>());
-    let tape = TAPE.replace(before);
-    (tape, results.iter().map(Recorded::operand).collect())
+    Tape { results: results.iter().map(Recorded::operand).collect(), ..TAPE.replace(before) }
 }
 
 /// A double that is recorded where it depends on an argument.
@@ -162,20 +213,26 @@ impl Recorded {
         if operands.iter().all(|operand| operand.node.is_none()) {
             return Self { value, node: None };
         }
-        TAPE.with_borrow_mut(|tape| {
-            tape.push((kind, operands.map(|operand| operand.operand())));
-            Self { value, node: Some(tape.len() - 1) }
+        TAPE.with_borrow_mut(|Tape { operations, .. }| {
+            operations.push((kind, operands.map(|operand| operand.operand())));
+            Self { value, node: Some(operations.len() - 1) }
         })
     }
 }
 
-/// Comparisons choose a branch as the values do.
+/// Comparisons choose a branch as the values do, and are recorded as well.
 impl PartialEq for Recorded {
     fn eq(&self, other: &Self) -> bool {
-        self.value == other.value
+        let (both, is_equal) = ([self, other], self.value == other.value);
+        if both.iter().any(|number| number.node.is_some()) {
+            let comparison = (both.map(Self::operand), is_equal);
+            TAPE.with_borrow_mut(|tape| tape.comparisons.push(comparison));
+        }
+        is_equal
     }
 }
 
+/// Equations alone are recorded, and ask for no order, see [`Scalar`].
 impl PartialOrd for Recorded {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
@@ -194,7 +251,7 @@ impl Zero for Recorded {
         Self { value: 0.0, node: None }
     }
     fn is_zero(&self) -> bool {
-        self.value == 0.0
+        *self == Self::zero()
     }
 }
 

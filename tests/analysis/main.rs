@@ -4,7 +4,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod branches;
+mod duals;
 mod flows;
+mod forces;
 mod gravity;
 mod jacobian;
 mod models;

@@ -11,12 +11,8 @@ pub type Vector<const N: usize, T = f64> = nalgebra::SVector<T, N>;
 /// nothing cancels that counts; elsewhere by Gauss-Jordan elimination with partial pivoting. Not finite where the
 /// matrix is singular (phase points are checked for `det phi > 0` when they are made).
 pub fn inverse<const N: usize, T: Real>(matrix: &Matrix<N, T>) -> Matrix<N, T> {
-    if N == 3
-        && let Some(inverse) = by_cofactors(matrix)
-    {
-        return inverse;
-    }
-    by_elimination(matrix)
+    let plain = if N == 3 { by_cofactors(matrix) } else { None };
+    plain.unwrap_or_else(|| by_elimination(matrix))
 }
 
 /// `(b x c, c x a, a x b)^T/det` of the columns `a`, `b`, `c`, where `det^2 > 2^-12 |matrix|^6`, which is `2^-7.3` times

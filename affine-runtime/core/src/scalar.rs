@@ -57,6 +57,13 @@ pub trait Scalar:
         numbers
     }
 
+    /// `self * other`, and zero where this number is, whatever the other is, in each lane alone: what does not change changes
+    /// nothing, be its derivative infinite.
+    #[inline(always)]
+    fn times_any(self, other: Self) -> Self {
+        if self == Self::zero() { self } else { self * other }
+    }
+
     /// `self + a * b`, as [`fma`](Self::fma) has it.
     #[inline(always)]
     #[must_use]

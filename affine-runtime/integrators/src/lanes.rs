@@ -134,6 +134,11 @@ impl<S: Real, const LANES: usize> Scalar for Several<S, LANES> {
     }
 
     #[inline(always)]
+    fn times_any(self, other: Self) -> Self {
+        self.with(other, S::times_any)
+    }
+
+    #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         self.with(sign, S::copysign)
     }

@@ -56,7 +56,7 @@ pub(super) fn linear_field<const N: usize, M: Model<N>>(model: &M, zeta: &Genera
 }
 
 /// The Jacobian of a map from plain arrays, one column a pass.
-fn columns<const N: usize, M: Model<N>>(
+pub(super) fn columns<const N: usize, M: Model<N>>(
     z: &Column,
     map: impl Fn(&M::Full<Dual<f64>>) -> Vec<Dual<f64>>,
 ) -> Dense {

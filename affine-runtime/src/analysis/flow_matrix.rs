@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::error::AnalysisError;
-use super::field::{Kinds, full, normals, symplectic_form, vector};
+use super::field::{Kinds, columns, full, normals, symplectic_form, vector};
 use super::jacobian::JacobianMatrix;
 use super::linear::{RANK, decomposed, from_columns, kernel};
 use crate::dual::{Dual, fixed};
@@ -42,8 +42,9 @@ const fn with_columns(groups: &[Group]) -> ([Group; 8], usize) {
 /// The derivative of a motion with respect to its start, in all directions: `M' = A(z(t)) M`, `M(t0) = 1`, over the plain array.
 ///
 /// State and matrix are integrated together, so that all columns share the motion. The equations are recorded at the start, see
-/// [`JacobianMatrix`]. Columns along a constraint mean something, others do not. The motion is followed as far as its equations have
-/// values, through `det phi = 0` too, where a [`Simulation`](crate::Simulation) stops.
+/// [`JacobianMatrix`], and where they have a branch each column is computed alone, by [`Dual`] numbers. Columns along a constraint
+/// mean something, others do not. The motion is followed as far as its equations have values, through `det phi = 0` too, where a
+/// [`Simulation`](crate::Simulation) stops.
 ///
 /// ```
 /// use affine_runtime::analysis::FlowMatrix;
@@ -112,7 +113,7 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
             let z = full::<N, M>(&DVector::from_column_slice(&wide[..own]));
             let columns = DMatrix::from_column_slice(own, own, &wide[own..own * (own + 1)]);
             let (rates, forced) = (self.model.hamilton_equations(t, &z), forcing(t, &z));
-            let moved = self.jacobian.at(t, z) * columns;
+            let moved = self.slopes(t, z) * columns;
             let mut slope = [0.0; COMPONENTS];
             slope[..own].copy_from_slice(rates.as_ref());
             slope[own..][..moved.len()].copy_from_slice(moved.as_slice());
@@ -123,6 +124,16 @@ impl<'a, const N: usize, M: Model<N>> FlowMatrix<'a, N, M> {
         *self.state = steps.finish(DEFAULT_MAX_STEPS)?;
         self.t = end;
         Ok(())
+    }
+
+    /// The derivative of the equations.
+    fn slopes(&self, t: f64, z: M::Full<f64>) -> DMatrix<f64> {
+        if !self.jacobian.has_branch() {
+            return self.jacobian.at(t, z);
+        }
+        // What was recorded at the start may be another branch.
+        let rates = |full: &_| self.model.hamilton_equations(Dual::fixed(t), full).as_ref().to_vec();
+        columns::<N, M>(&vector(&z), rates)
     }
 
     /// The phase point.
@@ -211,7 +222,7 @@ impl Sensitivities {
         let mut by_fields = from_columns(own, &by_fields);
         let start = flow.start.as_slice();
         // Places and velocities by the plain array, and that by these.
-        let mut both = flow.jacobian.at(t0, start).insert_rows(0, own, 0.0);
+        let mut both = flow.slopes(t0, full::<N, F::Prepared>(&flow.start)).insert_rows(0, own, 0.0);
         both.rows_mut(0, own).fill_with_identity();
         let places = Kinds::of::<N, F::Prepared>().places;
         let rows: Vec<usize> = places.iter().copied().chain(places.iter().map(|place| own + place)).collect();
@@ -291,7 +302,7 @@ pub fn lyapunov_spectrum<const N: usize, M: Model<N>>(
     // Of no special directions, in which growth would be less.
     let mixed = |i: usize, k: usize| ((1 + i + k * k) as f64 * 12.9898).sin();
     let mut columns = &basis * DMatrix::from_fn(basis.ncols(), basis.ncols(), mixed).qr().q();
-    let slopes = flow.jacobian.at(0.0, flow.start.as_slice());
+    let slopes = flow.slopes(0.0, full::<N, M>(&flow.start));
     // Once in a turn of what is fastest at the start, in whatever units: masses and lengths cancel in what a square has of one quantity.
     let (square, mut at) = (&slopes * &slopes, 0);
     let own = M::DESCRIPTION.full.iter().map(|group| {

@@ -5,14 +5,15 @@ use nalgebra::DMatrix;
 use crate::dual::Dual;
 use crate::model::{Model, StateVector};
 use crate::scalar::Scalar;
-use crate::tape::{Kind, Operand, Operation, Recorded, recorded};
+use crate::tape::{Kind, Operand, Recorded, Tape, recorded};
 
 /// `df/dy` of equations of motion `y' = f(t, y)`, as straight-line code.
 ///
 /// The operations of `f` are recorded once, at a point, and differentiated one after the other by those components alone that they
 /// depend on: the result is exact, and all of its columns share the values of `f`. Where `f` has a branch, as a force of the user
-/// may, the code is that of the branch at the point. With a potential in single stretches each column is computed alone: where
-/// stretches coincide, so do the axes that belong to them, and which are right depends on the direction.
+/// may that asks whether numbers are equal, the code is that of the branch at the point, each column is computed alone, and those in
+/// which [`Dual`] numbers would take another branch are NaN. With a potential in single stretches each column is computed alone, too:
+/// where stretches coincide, so do the axes that belong to them, and which are right depends on the direction.
 ///
 /// ```
 /// use affine_runtime::analysis::JacobianMatrix;
@@ -28,8 +29,7 @@ use crate::tape::{Kind, Operand, Operation, Recorded, recorded};
 /// ```
 #[derive(Clone, Debug)]
 pub struct JacobianMatrix {
-    tape: Vec<Operation>,
-    results: Vec<Operand>,
+    tape: Tape,
     components: usize,
 }
 
@@ -58,17 +58,22 @@ impl JacobianMatrix {
     fn recorded(t: f64, state: &[f64], f: impl FnOnce(Recorded, &[Recorded]) -> Vec<Recorded>) -> Self {
         let components = state.len();
         let arguments = [state, &[t]].concat();
-        let (tape, results) = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
-        Self { tape, results, components }
+        let tape = recorded(&arguments, |numbers| f(numbers[components], &numbers[..components]));
+        Self { tape, components }
     }
 
-    /// Whether the equations contain the time: a function of it that nothing multiplies by zero.
+    /// Whether the equations have a branch: whether numbers are equal that depend on the state or the time.
+    pub(super) fn has_branch(&self) -> bool {
+        !self.tape.comparisons.is_empty()
+    }
+
+    /// Whether the equations contain the time: a function of it that nothing multiplies by zero, or a branch by it.
     pub(super) fn contains_time(&self) -> bool {
         let mut timed: Vec<bool> = (0..=self.components).map(|node| node == self.components).collect();
         let is_timed =
             |operand: &Operand, timed: &[bool]| matches!(*operand, Operand::Node(node) if timed[node]);
         let zero = Operand::Constant(0.0);
-        for (kind, operands) in &self.tape[timed.len()..] {
+        for (kind, operands) in &self.tape.operations[timed.len()..] {
             let vanishes = |k: usize| match (kind, k) {
                 (Kind::Mul | Kind::Fma, 0 | 1) => operands[1 - k] == zero,
                 (Kind::Div, 1) => operands[0] == zero,
@@ -76,7 +81,8 @@ impl JacobianMatrix {
             };
             timed.push((0..3).any(|k| is_timed(&operands[k], &timed) && !vanishes(k)));
         }
-        self.results.iter().any(|result| is_timed(result, &timed))
+        let compared = self.tape.comparisons.iter().flat_map(|(both, _)| both);
+        self.tape.results.iter().chain(compared).any(|number| is_timed(number, &timed))
     }
 
     /// `df_i/dy_k` at a time and a state, in row `i` and column `k`. Any number will do, in the precision of doubles.
@@ -88,7 +94,7 @@ impl JacobianMatrix {
         arguments.iter_mut().zip(state.as_ref()).take(self.components).for_each(|(a, value)| *a = *value);
         arguments[self.components] = t;
         let mut matrix = DMatrix::from_element(self.components, self.components, T::zero());
-        differentiated((&self.tape, &self.results), (&arguments, self.components), |row, column, value| {
+        differentiated(&self.tape, (&arguments, self.components), |row, column, value| {
             matrix[(row, column)] = value;
         });
         matrix
@@ -101,34 +107,20 @@ fn state_of<S: StateVector<Recorded>>(numbers: &[Recorded]) -> S {
     state
 }
 
-/// The derivative of an operation by one of the numbers that it reads, up to the sign, which is minus where it is `true`.
-/// `None` is 1, by which nothing is multiplied.
-fn partial<T: Scalar>(kind: Kind, k: usize, operands: [T; 3]) -> (bool, Option<T>) {
-    match (kind, k) {
-        (Kind::Add, _) | (Kind::Sub, 0) | (Kind::Fma, 2) => (false, None),
-        (Kind::Sub | Kind::Neg, _) => (true, None),
-        (Kind::Mul | Kind::Fma, k) => (false, Some(operands[1 - k])),
-        _ => {
-            let mut varied = operands.map(Dual::fixed);
-            varied[k].slope = T::one();
-            (false, Some(kind.of(varied).slope))
-        }
-    }
-}
-
 /// The derivatives of results by so many of the first arguments that are not zero, each given to `each` with its row and column.
 fn differentiated<T: Scalar>(
-    (tape, results): (&[Operation], &[Operand]),
+    tape: &Tape,
     (arguments, columns): (&[T], usize),
     mut each: impl FnMut(usize, usize, T),
 ) {
-    // Where stretches coincide, numbers on the way depend on the direction of which they are the derivatives.
-    if tape.iter().any(|(kind, _)| matches!(kind, Kind::FirstApart | Kind::SecondApart)) {
+    if tape.is_directed() {
         for column in 0..columns {
             let mut varied: Vec<_> = arguments.iter().copied().map(Dual::fixed).collect();
             varied[column].slope = T::one();
-            let values = evaluated(tape, varied);
-            results.iter().enumerate().for_each(|(row, result)| each(row, column, result.of(&values).slope));
+            let values = tape.values(varied);
+            let unless_other = if tape.is_branch_of(&values) { T::one() } else { T::constant(f64::NAN, 0.0) };
+            let slopes = tape.results.iter().map(|result| result.of(&values).slope * unless_other);
+            slopes.enumerate().for_each(|(row, slope)| each(row, column, slope));
         }
         return;
     }
@@ -137,16 +129,18 @@ fn differentiated<T: Scalar>(
     let mut slopes: Vec<Vec<(usize, T)>> = (0..arguments.len())
         .map(|node| (node < columns).then(|| (node, T::one())).into_iter().collect())
         .collect();
-    for (kind, operands) in &tape[arguments.len()..] {
+    for (kind, operands) in &tape.operations[arguments.len()..] {
         let numbers = operands.map(|operand| operand.of(&values));
         let mut sums: Vec<(usize, T)> = Vec::new();
         for (k, operand) in operands.iter().enumerate() {
             let Operand::Node(from) = *operand else { continue };
-            let (is_negative, partial) = partial(*kind, k, numbers);
+            let (is_negative, partial) = kind.partial(k, numbers);
             for (column, slope) in &slopes[from] {
                 let term = match partial {
                     None => *slope,
                     Some(partial) if from < arguments.len() => partial,
+                    // As dual numbers have roots of zero.
+                    Some(partial) if matches!(kind, Kind::Sqrt | Kind::Cbrt) => slope.times_any(partial),
                     Some(partial) => partial * *slope,
                 };
                 let term = if is_negative { -term } else { term };
@@ -159,17 +153,9 @@ fn differentiated<T: Scalar>(
         values.push(kind.of(numbers));
         slopes.push(sums);
     }
-    for (row, result) in results.iter().enumerate() {
+    for (row, result) in tape.results.iter().enumerate() {
         if let Operand::Node(node) = *result {
             slopes[node].iter().for_each(|(column, slope)| each(row, *column, *slope));
         }
     }
-}
-
-/// The values of all operations.
-fn evaluated<T: Scalar>(tape: &[Operation], mut values: Vec<T>) -> Vec<T> {
-    for (kind, operands) in &tape[values.len()..] {
-        values.push(kind.of(operands.map(|operand| operand.of(&values))));
-    }
-    values
 }

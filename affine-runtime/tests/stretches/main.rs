@@ -198,6 +198,18 @@ fn special_placements() {
     assert!(principal_stretches([[f64::NAN, 0.0], [0.0, 1.0]]).0[0].is_nan());
 }
 
+/// As far as the page says that squares of entries have their digits: a shear has the golden ratio and its inverse.
+#[test]
+fn log_stretches_of_any_size() {
+    let golden = f64::midpoint(1.0, 5.0_f64.sqrt()).ln();
+    for size in [1e-140, 1e-100, 1e-30, 1.0, 1e30, 1e100, 1e150] {
+        let logarithms = sorted((Matrix::<2>::new(1.0, 1.0, 0.0, 1.0) * size).log_stretches());
+        for (found, expected) in logarithms.into_iter().zip([size.ln() - golden, size.ln() + golden]) {
+            assert!((found - expected).abs() <= ROUNDINGS * expected.abs(), "{size:e}: {found} {expected}");
+        }
+    }
+}
+
 /// `dq = tr(phi^-1 dphi)/n`, at the undeformed body too, where the logarithm is that of 1.
 #[test]
 fn the_mean_log_stretch_has_its_derivative() {

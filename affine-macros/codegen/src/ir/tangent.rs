@@ -108,10 +108,7 @@ impl Steps {
                 let root = self.step(Op::Call(Function::Sqrt, sum));
                 self.step(Op::Div(change, root))
             }
-            Function::Sqrt => {
-                let twice = self.step(Op::Add(value, value));
-                self.step(Op::Div(change, twice))
-            }
+            Function::Sqrt => self.of_root(value, change),
             // v' = v a'/(3 a), v' = -v a'/(3 a)
             Function::Cbrt | Function::InverseCbrt => {
                 let three = self.step(Op::Constant(Rational::from(3)));
@@ -139,6 +136,18 @@ impl Steps {
                 })
             }
         }
+    }
+
+    /// `a'/(2 v + 1 + sign(0 - |a'|))`: what does not change has a root that does not, of zero too, and where it changes 0 is added.
+    fn of_root(&mut self, root: Value, change: Value) -> Value {
+        let [zero, one] = [Rational::ZERO, Rational::ONE].map(|number| self.step(Op::Constant(number)));
+        let size = self.step(Op::Call(Function::Abs, change));
+        let sign = self.step(Op::Sub(zero, size));
+        let sign = self.step(Op::Call(Function::Sign, sign));
+        let unless_changed = self.step(Op::Add(one, sign));
+        let twice = self.step(Op::Add(root, root));
+        let below = self.step(Op::Add(twice, unless_changed));
+        self.step(Op::Div(change, below))
     }
 
     /// `g(a) a'`.

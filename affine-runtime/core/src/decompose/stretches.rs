@@ -25,7 +25,8 @@ const NO_ANGLE: f64 = 1e-30;
 ///
 /// Each stretch has an error of a few units of rounding of the largest one, relative to itself where the columns of `phi`
 /// are of different size only. Where stretches coincide any axes are right, and some are returned: sums
-/// `R diag(f(Q)) R^T` are what they should be. Not finite where `phi` is not, or has a column of zeros.
+/// `R diag(f(Q)) R^T` are what they should be. Not finite where `phi` is not, or has a column of zeros; wrong where squares of its
+/// entries leave the range of numbers.
 #[inline]
 #[must_use]
 pub fn principal_stretches<const N: usize, T: Scalar>(

@@ -17,7 +17,7 @@ const TERMS: u32 = 14;
 /// to `2^-106` of its size.
 impl Scalar for Quad {
     fn constant(hi: f64, lo: f64) -> Self {
-        Quad::from(hi) + Quad::from(lo)
+        if hi.is_finite() { Quad::from(hi) + Quad::from(lo) } else { Quad::from(hi) }
     }
     fn sqrt(self) -> Self {
         if self.0 < 0.0 { Quad::NAN } else { Quad::sqrt(self) }
@@ -117,11 +117,14 @@ impl Real for Quad {
 
     fn hypot(self, other: Self) -> Self {
         let (a, b) = (Scalar::abs(self), Scalar::abs(other));
-        let (small, large) = if a < b { (a, b) } else { (b, a) };
-        if large.0 == 0.0 || !large.0.is_finite() {
+        if a.0.is_infinite() || b.0.is_infinite() {
+            return Quad::INFINITY;
+        }
+        let large = Scalar::max(a, b);
+        if large.0 == 0.0 || large.0.is_nan() {
             return large;
         }
-        let ratio = small / large;
+        let ratio = Scalar::min(a, b) / large;
         large * Quad::sqrt(ratio * ratio + Quad::ONE)
     }
     fn is_finite(self) -> bool {
@@ -405,5 +408,14 @@ mod tests {
             [Quad::ZERO; 3]
         );
         assert_eq!(Quad::constant(0.1, 1e-18).to_f64(), 0.1);
+        assert_eq!(Quad::constant(f64::NEG_INFINITY, 0.0), -Quad::INFINITY);
+        assert!(Quad::constant(f64::NAN, 0.0).0.is_nan());
+        // As those of doubles.
+        for x in [0.0, -3.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for y in [0.0, 4.0, f64::NAN, f64::INFINITY] {
+                let (own, double) = (Quad::from(x).hypot(Quad::from(y)).0, Real::hypot(x, y));
+                assert!(own == double || own.is_nan() && double.is_nan(), "{x} {y}: {own} {double}");
+            }
+        }
     }
 }
