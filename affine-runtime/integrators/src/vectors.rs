@@ -7,25 +7,14 @@ use affine_core::__private::Vectors;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use affine_core::__private::numerics::IS_FUSED;
 use affine_core::scalar::Scalar;
-#[cfg(not(target_arch = "x86_64"))]
 use wide::{f64x2, f64x4};
 
 /// The vectors that every processor of the target has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Baseline;
 
-/// Number by number: nearly every processor has wider vectors than the target promises.
-#[cfg(target_arch = "x86_64")]
 impl Vectors for Baseline {
-    const IS_LAST_RESORT: bool = cfg!(feature = "std");
-    #[inline(always)]
-    fn plus_one(self, sum: f64, left: f64, right: f64) -> f64 {
-        left.fma(right, sum)
-    }
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-impl Vectors for Baseline {
+    const IS_LAST_RESORT: bool = cfg!(all(feature = "std", target_arch = "x86_64"));
     #[inline(always)]
     fn pair(self, one: [[f64; 4]; 2], other: [[f64; 4]; 2]) -> [f64; 4] {
         f64x4::from(one[0]).mul_add(f64x4::from(one[1]), f64x4::from(other[0]) * f64x4::from(other[1])).into()
@@ -94,7 +83,7 @@ impl<const FUSED: bool> Vectors for Avx2<FUSED> {
     #[inline(always)]
     fn plus_product_of_two(self, sum: [f64; 2], left: [f64; 2], right: [f64; 2]) -> [f64; 2] {
         if const { !FUSED } {
-            return Baseline.plus_product_of_two(sum, left, right);
+            return f64x2::from(left).mul_add(f64x2::from(right), f64x2::from(sum)).into();
         }
         let (sum, left, right) = (pulp::cast(sum), pulp::cast(left), pulp::cast(right));
         pulp::cast(self.0.mul_add_f64x2(left, right, sum))

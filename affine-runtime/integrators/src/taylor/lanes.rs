@@ -6,6 +6,8 @@
 use core::any::Any;
 use core::ops::Neg;
 
+use wide::f64x2;
+
 use affine_core::__private::numerics::Vectors;
 use affine_core::__private::{Divisor, over};
 use affine_core::scalar::Scalar;
@@ -84,8 +86,7 @@ pub fn add_pair<T: Scalar, const W: usize>(
     if let Some((sum, one, other)) = pairs(sum, one, other) {
         *sum = vectors.plus_pair(*sum, one, other);
     } else if let Some((sum, one, other)) = pairs(sum, one, other) {
-        let pair = pair_of_two(vectors, one, other);
-        *sum = [sum[0] + pair[0], sum[1] + pair[1]];
+        *sum = (f64x2::from(*sum) + f64x2::from(pair_of_two(vectors, one, other))).into();
     } else {
         for lane in 0..W {
             sum[lane] += one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
@@ -104,8 +105,7 @@ pub fn subtract_pair<T: Scalar, const W: usize>(
     if let Some((sum, one, other)) = pairs(sum, one, other) {
         *sum = vectors.minus_pair(*sum, one, other);
     } else if let Some((sum, one, other)) = pairs(sum, one, other) {
-        let pair = pair_of_two(vectors, one, other);
-        *sum = [sum[0] - pair[0], sum[1] - pair[1]];
+        *sum = (f64x2::from(*sum) - f64x2::from(pair_of_two(vectors, one, other))).into();
     } else {
         for lane in 0..W {
             sum[lane] -= one[0][lane].fma(one[1][lane], other[0][lane] * other[1][lane]);
@@ -116,8 +116,8 @@ pub fn subtract_pair<T: Scalar, const W: usize>(
 /// `left right + left' right'` in half a vector.
 #[inline(always)]
 fn pair_of_two(vectors: impl Vectors, one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> [f64; 2] {
-    let product = [other[0][0] * other[1][0], other[0][1] * other[1][1]];
-    vectors.plus_product_of_two(product, one[0], one[1])
+    let product = f64x2::from(other[0]) * f64x2::from(other[1]);
+    vectors.plus_product_of_two(product.into(), one[0], one[1])
 }
 
 /// The rows before the middle, the one in the middle where their number is odd, those behind: a convolution pairs them
