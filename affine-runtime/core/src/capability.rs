@@ -27,6 +27,9 @@ pub trait Taylor<const N: usize>: Model<N> {
     type Row<T: Scalar>: StateVector<T>;
     /// Coefficients in lanes: states whose rates are the lanes of one convolution go from order to order as vectors.
     type Columns<T: Scalar>: Copy;
+    /// There is a square root, or a size, of what moves: where that falls to zero and rises again, as `norm(x)` through x = 0, the root stays
+    /// positive and its series does not, without any coefficient that tells.
+    const ROOTS: bool = false;
 
     /// `y_1` from `y_0` at time `t`; fills the row of order 0.
     fn start<T: Scalar>(
@@ -231,6 +234,7 @@ impl<const N: usize, M: Taylor<N>, H: Handle<N, Model = M>> Series<M::Reduced<f6
     for Emitted<H, N>
 {
     type Row = M::Row<f64>;
+    const ROOTS: bool = M::ROOTS;
 
     fn coefficients(
         &self,
