@@ -88,6 +88,43 @@ fn isochoric_lattices_keep_their_volume() {
     assert!(IsochoricPairs3.at_lattice(&start()).is_err());
 }
 
+/// Through coincidences, by any tolerance, there and back: every lattice of the motion is one of the model, also at rest, where the
+/// momenta that are left are errors alone.
+fn stays_on_the_group<const N: usize, M: TwoPolarForm<N>>(model: &M, start: &Lattice<N>) {
+    let energy = |lattice: &Lattice<N>| model.hamiltonian(0.0, &model.at_lattice(lattice).unwrap());
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
+        let mut flow = LatticeFlow::new(model, 0.0, *start).tolerance(tolerance);
+        for t in (1..=20).map(|k| 2.0 * f64::from(k)).chain([1.0, 0.0]) {
+            let lattice = *flow.advance_to(t).unwrap();
+            let off = (energy(&lattice) / energy(start) - 1.0).abs();
+            let steps = flow.steps().0 as f64;
+            assert!(
+                off < 0.1 * tolerance * steps + 1e-13,
+                "{} {tolerance:e} {t}: {off:e}",
+                M::DESCRIPTION.name
+            );
+        }
+        assert!(flow.steps().1 > 0, "through the placement");
+    }
+}
+
+#[test]
+fn isochoric_lattices_stay_on_the_group() {
+    let planar = Matrix::<2>::new(1.3, 0.2, 0.1, 0.8);
+    let planar = planar / planar.determinant().sqrt();
+    let spatial = Matrix::<3>::new(1.3, 0.2, -0.1, 0.3, 0.8, 0.15, -0.2, 0.1, 1.1);
+    let spatial = spatial / spatial.determinant().cbrt();
+    for spin in [Matrix::<2>::zeros(), Matrix::<2>::new(0.3, 0.9, -1.1, -0.3)] {
+        let point = IsochoricSheared2.at_momentum(planar, Comoving(spin)).unwrap();
+        stays_on_the_group(&IsochoricSheared2, &IsochoricSheared2.lattice(&point).unwrap());
+    }
+    let moving = Matrix::<3>::new(0.1, 0.6, -0.3, -0.5, -0.15, 0.25, 0.35, -0.1, 0.05);
+    for spin in [Matrix::<3>::zeros(), moving] {
+        let point = IsochoricSheared3.at_momentum(spatial, Comoving(spin)).unwrap();
+        stays_on_the_group(&IsochoricSheared3, &IsochoricSheared3.lattice(&point).unwrap());
+    }
+}
+
 fn assert_same_motion<const N: usize, M: TwoPolarForm<N>>(model: &M, start: Lattice<N>) {
     let back = model.lattice_after(&model.at_lattice(&start).unwrap(), &start).unwrap();
     let conversion = distance(&back, &start);

@@ -184,3 +184,46 @@ fn a_force_that_grows_with_time() {
         assert!(balance.relative() < TOLERANCES * tolerance, "{tolerance:e} {order:?}: {balance}");
     }
 }
+
+/// `s(t)` of `s'' = -u(t)/(2 s)` from `s = 1` at rest, by the classical Runge-Kutta method: what `T = tr(phi'^T phi')/2` and the
+/// potential `u(t) q`, `q = ln(s)`, make of `phi = s 1` in the plane.
+fn swelling(u: impl Fn(f64) -> f64, t_end: f64) -> f64 {
+    let steps = 2000;
+    let h = t_end / f64::from(steps);
+    let rate = |t: f64, (s, v): (f64, f64)| (v, -u(t) / (2.0 * s));
+    let moved = |(s, v): (f64, f64), (of_s, of_v): (f64, f64), h: f64| (s + h * of_s, v + h * of_v);
+    let mut at = (1.0, 0.0);
+    for step in 0..steps {
+        let t = h * f64::from(step);
+        let first = rate(t, at);
+        let second = rate(t + h / 2.0, moved(at, first, h / 2.0));
+        let third = rate(t + h / 2.0, moved(at, second, h / 2.0));
+        let fourth = rate(t + h, moved(at, third, h));
+        at = moved(moved(moved(moved(at, first, h / 6.0), second, h / 3.0), third, h / 3.0), fourth, h / 6.0);
+    }
+    at.0
+}
+
+/// The work of such a force begins with a higher power of `t` than a series of low order has.
+#[test]
+fn forces_that_begin_as_a_power_of_time() {
+    macro_rules! at_rest {
+        ($(($($potential:tt)*) $u:expr;)*) => { $( {
+            #[affine_model(dim = 2, kinetic(dalembert = 1), potential = $($potential)*, emit(taylor))]
+            struct Body;
+            let start = Body.at_velocity(Matrix::identity(), Matrix::zeros()).unwrap();
+            for (order, steps) in [(4, 20_000), (5, 2000), (6, 500), (7, 300), (8, 100), (12, 30), (30, 10)] {
+                let method = Method::Taylor { order: Some(order) };
+                let run = Simulation::new(&Body, start).until(0.5).tolerance(1e-12).method(method).run().unwrap();
+                let off = run.end().1.phi() - Matrix::<2>::identity() * swelling($u, 0.5);
+                assert!(off.norm() < TOLERANCES * 1e-12, "{} by order {order}: {off}", stringify!($($potential)*));
+                assert!(run.statistics().steps < steps, "order {order}: {:?}", run.statistics());
+            }
+        } )* };
+    }
+    at_rest! {
+        ((1 - cos(t))^2*q) |t: f64| (1.0 - t.cos()).powi(2);
+        (sin(t)^3*q) |t: f64| t.sin().powi(3);
+        (tan(t)^3*q) |t: f64| t.tan().powi(3);
+    }
+}

@@ -27,6 +27,9 @@ pub trait Taylor<const N: usize>: Model<N> {
     type Row<T: Scalar>: StateVector<T>;
     /// Coefficients in lanes: states whose rates are the lanes of one convolution go from order to order as vectors.
     type Columns<T: Scalar>: Copy;
+    /// There is a square root, or a size, of what moves: where that falls to zero and rises again, as `norm(x)` through x = 0, the root stays
+    /// positive and its series does not, without any coefficient that tells.
+    const ROOTS: bool;
 
     /// `y_1` from `y_0` at time `t`; fills the row of order 0.
     fn start<T: Scalar>(
@@ -231,6 +234,7 @@ impl<const N: usize, M: Taylor<N>, H: Handle<N, Model = M>> Series<M::Reduced<f6
     for Emitted<H, N>
 {
     type Row = M::Row<f64>;
+    const ROOTS: bool = M::ROOTS;
 
     fn coefficients(
         &self,
@@ -251,12 +255,9 @@ impl<const N: usize, M: Taylor<N>, H: Handle<N, Model = M>> Series<M::Reduced<f6
         coefficients: &mut [M::Reduced<f64>],
         rows: &mut [Self::Row],
     ) {
-        if const { V::IS_LAST_RESORT } {
-            // Compiled once, for slopes and for steps.
-            called(|| self.0.model().coefficients_on(vectors, at, constants, coefficients, rows));
-        } else {
-            self.0.model().coefficients_on(vectors, at, constants, coefficients, rows);
-        }
+        let mut fill = || self.0.model().coefficients_on(vectors, at, constants, coefficients, rows);
+        // Compiled once there, for slopes and for steps.
+        if const { V::IS_LAST_RESORT } { called(fill) } else { fill() }
     }
 }
 

@@ -87,6 +87,8 @@ impl<S: StateVector<f64>> Sum<S> {
 pub trait Series<S, C> {
     /// What is kept of each order.
     type Row: StateVector<f64>;
+    /// The equations contain roots, whose series go through zero with another sign than they have.
+    const ROOTS: bool = false;
 
     /// Fills in all coefficients `y_k unit^k` after the first, which is the state, `at` a time and with a unit of time; as
     /// many rows as coefficients, less one. The unit, a power of two, keeps them in the range of numbers.

@@ -170,13 +170,22 @@ impl ErrorNorm {
     }
 
     /// The size of a value of the work, which the norm does not measure, over that of the work or of twice the kinetic energy,
-    /// `sum |g| |phi'|`, whichever is larger; zero where there is neither.
+    /// `sum |g| |phi'|`, whichever is larger. The momentum is at least the error that the tolerance allows it in a time: forces that
+    /// begin as a power of `t` have done no work where a body rests, and its first terms are no part of any. Zero where there is
+    /// neither.
     #[inline(never)]
-    pub(crate) fn over_energy(&self, [before, after]: [&[f64]; 2], slope: &[f64], value: &[f64]) -> f64 {
+    pub(crate) fn over_energy(
+        &self,
+        [before, after]: [&[f64]; 2],
+        slope: &[f64],
+        value: &[f64],
+        (tolerance, h): (f64, f64),
+    ) -> f64 {
         let Some(work) = self.range_of(Quantity::Work) else { return 0.0 };
         let energies = self.groups.iter().enumerate().filter_map(|(k, group)| {
             let moved = self.moved_by(group)?;
-            Some(norm(&after[self.range(k)]) * norm(&slope[moved]))
+            let least = PART_OF_DISPLACEMENT * self.extent(moved.clone(), after) / h;
+            Some(norm(&after[self.range(k)]) * norm(&slope[moved]) + tolerance * self.floor(k, h) * least)
         });
         let done = larger(norm(&before[work.clone()]), norm(&after[work.clone()]));
         let scale = larger(energies.sum(), done);

@@ -5,7 +5,7 @@ pub(crate) mod lanes;
 
 pub use affine_core::system::Series;
 
-use gaps::{hides_terms, quotient};
+use gaps::{hides_terms, outgrows, quotient};
 
 use super::drive::{Adaptive, AdaptiveMethod, Control};
 use super::error_norm::ErrorNorm;
@@ -33,7 +33,8 @@ use affine_core::model::{Group, StateVector};
 ///
 /// Series may have longer gaps, `x'' = -x^(k - 1)` from `x = 0` has one of `k` orders: where the last two terms are less than those
 /// before let expect, where they vanish, and below order 8, the step is proved before it is taken, by the defect `P' - f(P)` of
-/// the polynomial at its end, and shortened to what that allows.
+/// the polynomial at its end, and shortened to what that allows. So is every step of equations with [roots](Series::ROOTS), and one
+/// in which the coefficients of a value within the equations grow: those of the motion are what rounding leaves of them.
 ///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
@@ -51,6 +52,8 @@ pub struct TaylorSteps<S, C, R: Series<S, C>> {
     constants: C,
     error_norm: ErrorNorm,
     order: usize,
+    /// The highest order of the last step: the one above, or the last one of which there is a coefficient.
+    highest: usize,
     /// See [`quotient`].
     quotient: f64,
     begin: f64,
@@ -135,6 +138,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> Adaptive<TaylorSteps<S, C, R>> {
             method: TaylorSteps {
                 error_norm,
                 order,
+                highest: order,
                 quotient: quotient(control.tolerance, order),
                 begin: t0,
                 t: t0,
@@ -205,18 +209,17 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
             }
             again = true;
         }
-        let length = self.longest(control);
+        let mut length = self.longest(control);
         if length.is_nan() {
-            return Err(Failure::NotFinite);
+            self.lower()?;
+            length = self.longest(control);
         }
         let rest = control.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
         let mut end =
             if 1.01 * length >= rest.abs() { control.t_end } else { self.t + length.copysign(rest) };
-        let step = (end - self.t, self.unit, self.quotient);
-        let coefficients = &self.coefficients[..=self.order];
-        if length == f64::INFINITY || hides_terms(coefficients, &self.error_norm, step) {
-            end = self.proved(end, control);
+        if let Some(terms) = self.doubts(length, end - self.t) {
+            end = self.proved(end, terms, control);
         }
         if (end - self.t).abs() <= shortest(self.t, control.t_end) && end != control.t_end {
             return Err(Failure::StepUnderflow);
@@ -241,6 +244,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     /// The coefficients at the state reached.
     #[inline(always)]
     fn expand(&mut self, vectors: impl Vectors, control: &mut Control) {
+        self.highest = self.order;
         self.coefficients[0] = self.y;
         let coefficients = &mut self.coefficients[..=self.order];
         let rows = &mut self.rows.0[..self.order];
@@ -275,22 +279,44 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         self.unit != before
     }
 
+    /// Takes the orders up to that after which coefficients, or what they are made of, are no numbers: a branch point that is near
+    /// makes those of high orders larger than any.
+    #[cold]
+    fn lower(&mut self) -> Result<(), Failure> {
+        let coefficients = self.coefficients[1..=self.order].iter().zip(&self.rows.0);
+        let numbers = coefficients.take_while(|(after, row)| is_finite(*after) && is_finite(*row));
+        self.highest = numbers.count();
+        if self.highest < LOWEST_ORDER { Err(Failure::NotFinite) } else { Ok(()) }
+    }
+
+    /// The last coefficients may not tell what a step leaves out, which is proved then: so many times less than the defect. Of a
+    /// series that has lost coefficients the first of them may be missing.
+    #[inline(always)]
+    fn doubts(&self, longest: f64, h: f64) -> Option<f64> {
+        let (coefficients, rows) = (&self.coefficients[..=self.highest], &self.rows.0[..self.highest]);
+        if self.highest != self.order || outgrows(rows, h.abs() / self.unit) {
+            return Some(1.0);
+        }
+        let step = (h, self.unit, self.quotient);
+        let hides = R::ROOTS || longest == f64::INFINITY || hides_terms(coefficients, &self.error_norm, step);
+        hides.then_some((self.order + 1) as f64)
+    }
+
     /// The longest step that the last two coefficients allow.
     #[inline(always)]
     fn longest(&self, control: &Control) -> f64 {
-        let terms = [self.order, self.order - 1].map(|j| (self.coefficients[j].as_ref(), j));
+        let terms = [self.highest, self.highest - 1].map(|j| (self.coefficients[j].as_ref(), j));
         let times = (control.tolerance, self.unit, control.controller.lasting);
         let longest = self.error_norm.longest(self.coefficients[0].as_ref(), terms, times);
-        exp(longest - 0.7 / (self.order - 1) as f64) * self.unit
+        exp(longest - 0.7 / (self.highest - 1) as f64) * self.unit
     }
 
     /// The end of a step to a time, or of a shorter one, after which the polynomial `P` solves the equations: there, `h |P' - f(P)|`
-    /// is the first term that is left out times its order, `p + 1` or more, and those behind it.
+    /// is the first term that is left out times its order, `p + 1` or more, and those behind it; `terms` times what is.
     #[cold]
     #[inline(never)]
-    fn proved(&self, mut end: f64, control: &mut Control) -> f64 {
-        let terms = (self.order + 1) as f64;
-        let allowed = terms * larger(control.tolerance, ROUNDING);
+    fn proved(&self, mut end: f64, terms: f64, control: &mut Control) -> f64 {
+        let (allowed, orders) = (terms * larger(control.tolerance, ROUNDING), (self.order + 1) as f64);
         loop {
             let h = end - self.t;
             let (mut after, mut defect) = (self.rise(Baseline, h), self.arriving(h));
@@ -302,11 +328,13 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
             let (states, defect) = ([self.y.as_ref(), after.as_ref()], defect.as_ref());
             let lasting = control.controller.lasting(h.abs());
             let error = self.error_norm.largest(lasting, states[0], states[1], |range| norm(&defect[range]));
-            let error = larger(error, self.error_norm.over_energy(states, slope.as_ref(), defect)) / allowed;
+            let of_work =
+                self.error_norm.over_energy(states, slope.as_ref(), defect, (control.tolerance, lasting));
+            let error = larger(error, of_work) / allowed;
             if error <= 1.0 || h.abs() <= shortest(self.t, control.t_end) {
                 return end;
             }
-            let part = libm::exp2(-libm::log2(error) / terms);
+            let part = libm::exp2(-libm::log2(error) / orders);
             // A defect that is no number is larger than any.
             let part = if part >= *AGAIN.start() { part } else { *AGAIN.start() };
             end = self.t + part.min(*AGAIN.end()) * h;
@@ -317,7 +345,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     fn arriving(&self, h: f64) -> S {
         let h = h / self.unit;
         let mut rate = S::zeros();
-        for (k, coefficient) in self.coefficients[..=self.order].iter().enumerate().skip(1).rev() {
+        for (k, coefficient) in self.coefficients[..=self.highest].iter().enumerate().skip(1).rev() {
             for (rate, coefficient) in rate.as_mut().iter_mut().zip(coefficient.as_ref()) {
                 *rate = *rate * h + k as f64 * coefficient;
             }
@@ -331,8 +359,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     #[inline(always)]
     fn rise(&self, vectors: impl Vectors, h: f64) -> S {
         let h = h / self.unit;
-        let mut rise = self.coefficients[self.order];
-        for coefficient in self.coefficients[1..self.order].iter().rev() {
+        let mut rise = self.coefficients[self.highest];
+        for coefficient in self.coefficients[1..self.highest].iter().rev() {
             let (fours, rest) = rise.as_mut().as_chunks_mut();
             let (of_fours, of_rest) = coefficient.as_ref().as_chunks();
             for (rise, coefficient) in fours.iter_mut().zip(of_fours) {

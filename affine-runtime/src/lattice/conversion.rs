@@ -114,7 +114,7 @@ impl<const N: usize> Lattice<N> {
         (couplings, places)
     }
 
-    /// The lattice of such arrays. For `n = 3` the frames are brought back to SO(3) to second order in their defect.
+    /// The lattice of such arrays. For `n = 3` the frames are brought back to SO(3).
     pub fn from_framed<M: LatticeForm<N>>(couplings: &M::Couplings<f64>, state: &M::Framed<f64>) -> Self {
         let values = state.as_ref();
         let plain = M::LATTICE.variables == Variables::Stretches;
@@ -166,6 +166,9 @@ pub fn far_on_axes<const N: usize, M: LatticeForm<N>, T: Real>(state: &M::Places
     far_from_undeformed(&Matrix::from_diagonal(&stretches))
 }
 
+/// From a defect of a tenth to rounding.
+const NEWTON_STEPS: u32 = 5;
+
 /// Up to three entries and their number.
 type Vec2 = ([f64; 3], usize);
 
@@ -193,7 +196,16 @@ impl Values<'_> {
     }
 }
 
-/// `F (3 - F^T F)/2`, one Newton step to the orthogonal polar factor.
+/// The orthogonal polar factor by Newton steps `F (3 - F^T F)/2`: one, and others while the defect before was such that its square
+/// is more than rounding.
 fn orthogonalised<const N: usize>(frame: &Matrix<N>) -> Matrix<N> {
-    frame * (Matrix::<N>::from_diagonal_element(1.5) - frame.tr_mul(frame) * 0.5)
+    let mut frame = *frame;
+    for _ in 0..NEWTON_STEPS {
+        let green = frame.tr_mul(&frame);
+        frame *= Matrix::<N>::from_diagonal_element(1.5) - green * 0.5;
+        if (green - Matrix::<N>::identity()).norm_squared() <= f64::EPSILON {
+            break;
+        }
+    }
+    frame
 }

@@ -4,10 +4,10 @@ use core::fmt;
 
 use super::{Lattice, LatticeForm, TwoPolarForm, Variables};
 use crate::error::Error;
-use crate::frames::Matrix;
+use crate::frames::{Matrix, Vector};
 use crate::inner::Time;
 use crate::integrate::{Failure, RungeKutta8};
-use crate::model::{Group, Quantity};
+use crate::model::{Constraint, Group, Model, Quantity};
 
 /// Stretches nearer than this are taken across in the form of the placement; see [`LatticeFlow`].
 const NEAR: f64 = 0.05;
@@ -30,6 +30,9 @@ const DEPTH: u32 = 24;
 /// (the model's reduced equations) until the gap is above 0.1, with labels and frames that follow
 /// through crossings. A motion that stays there, all stretches nearly equal, is integrated in that form to the end. Nothing
 /// is lost by it but the form: tolerances are the same.
+///
+/// *Isochoric bodies.* After each step the volume is 1 up to rounding, and the momentum of the volume 0: every lattice of the motion
+/// is one of [`at_lattice`](TwoPolarForm::at_lattice).
 ///
 /// *Collapse.* A stretch of d'Alembert's model may reach zero in finite time; the motion then stops there, with
 /// [`Error::Placement`] and the time of the collapse.
@@ -153,7 +156,7 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
                 return Ok(());
             }
             self.t = steps.t();
-            self.lattice = now.relabelled(&sorting.transpose());
+            self.lattice = on_the_group::<N, M>(now.relabelled(&sorting.transpose()));
             if now.gap() < NEAR {
                 return Ok(());
             }
@@ -217,7 +220,7 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
         (begin, end): (f64, f64),
         depth: u32,
     ) -> crate::Result<Lattice<N>> {
-        let next = self.model.lattice_after(&point(end), &before)?;
+        let next = on_the_group::<N, M>(self.model.lattice_after(&point(end), &before)?);
         let turned = |a: usize| {
             next.left.column(a).dot(&before.left.column(a)) < NEARLY_PARALLEL
                 || next.right.column(a).dot(&before.right.column(a)) < NEARLY_PARALLEL
@@ -229,6 +232,18 @@ impl<'a, const N: usize, M: TwoPolarForm<N>> LatticeFlow<'a, N, M> {
         let middle = 0.5 * (begin + end);
         let halfway = self.followed(point, before, (begin, middle), depth - 1)?;
         self.followed(point, halfway, (middle, end), depth - 1)
+    }
+}
+
+/// A lattice brought back to the group of the model. Steps in the space around it, and rounding, change the volume and its
+/// momentum by what the tolerance allows: that is taken from all places alike. Of the other groups no lattice has stretches apart.
+fn on_the_group<const N: usize, M: Model<N>>(lattice: Lattice<N>) -> Lattice<N> {
+    match M::DESCRIPTION.constraint {
+        Some(Constraint::Isochoric) => {
+            let centred = |places: &Vector<N>| places.add_scalar(-places.mean());
+            Lattice { q: centred(&lattice.q), p: centred(&lattice.p), ..lattice }
+        }
+        Some(Constraint::Rigid | Constraint::Conformal) | None => lattice,
     }
 }
 

@@ -7,6 +7,7 @@ use super::method::Method;
 use super::range::by_halves;
 use super::stiffness::{Trial, stiffness};
 use crate::model::{Description, Model};
+use affine_core::system::{Series, StateVector};
 
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted. At it they take 0.70 to 0.93
 /// of the time of Runge-Kutta steps on the benchmark problems, at ten times as much 0.78 to 1.07, and at equal errors they take
@@ -38,6 +39,7 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
     choice.stiffness = stiffness;
     let Description { constraint, series, second_order, .. } = M::DESCRIPTION;
     let has_series = series && constraint.is_none() && course.tolerance <= TAYLOR_TOLERANCE;
+    let is_emitted = has_series && M::taylor(model).is_some();
     choice.method = match course.method {
         Method::Automatic if choice.friction.is_some() => Method::Radau { stages: None },
         Method::Automatic if by_halves && M::second_order(model).is_some() => {
@@ -47,7 +49,11 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
             }
         }
         Method::Automatic if by_halves && stiffness.is_some() => Method::AdaptiveSplitting { order: None },
-        Method::Automatic if has_series && M::taylor(model).is_some() => Method::Taylor { order: None },
+        Method::Automatic
+            if is_emitted && begins_as_series(model, M::taylor(model), course, &mut choice.evaluations) =>
+        {
+            Method::Taylor { order: None }
+        }
         Method::Automatic => Method::RungeKutta8,
         asked => asked,
     };
@@ -55,11 +61,27 @@ pub(super) fn choose<const N: usize, M: Model<N>>(
         (Method::Automatic, Method::RungeKutta8 | Method::Taylor { .. }) if by_halves && second_order => {
             Some("nystrom")
         }
-        (Method::Automatic, Method::RungeKutta8) if has_series => Some("taylor"),
+        (Method::Automatic, Method::RungeKutta8) if has_series && !is_emitted => Some("taylor"),
         _ => None,
     };
     choice.needs_determinant =
         const { carries_dilatation(&M::DESCRIPTION) } && forms_determinant(choice.method);
+}
+
+/// The motion begins as a series, which its first two orders tell at the price of three evaluations: a root that vanishes there has
+/// none, as `norm(x)` at x = 0, although a force that is a power of it has a value.
+fn begins_as_series<const N: usize, M: Model<N>, R: Series<M::Reduced<f64>, M::Constants<f64>>>(
+    model: &M,
+    series: Option<R>,
+    course: &Course<'_, M::Point<f64>>,
+    evaluations: &mut u64,
+) -> bool {
+    let Some(series) = series else { return false };
+    let (reduced, constants) = model.reduce(course.t0, course.start);
+    let mut coefficients = [reduced, M::Reduced::zeros(), M::Reduced::zeros()];
+    series.coefficients((course.t0, 1.0), &constants, &mut coefficients, &mut [R::Row::zeros(); 2]);
+    *evaluations += 3;
+    coefficients.iter().all(|coefficient| coefficient.as_ref().iter().all(|value| value.is_finite()))
 }
 
 /// Forces are computed from the placement alone, nothing being carried along.

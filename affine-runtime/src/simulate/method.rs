@@ -8,7 +8,8 @@ pub enum Method {
     /// The closed form where model and start have one; else, where `emit(nystrom)` asked for it and unless there
     /// are events, which look at times within steps, [`Method::RungeKuttaNystrom12`], or at tolerances above
     /// 1e-3 [`Method::RungeKuttaNystrom8`]; else [`Method::Taylor`] where `emit(taylor)` asked
-    /// for it and the tolerance is at most 1e-11; else [`Method::RungeKutta8`]. Before these two, and unless
+    /// for it, the tolerance is at most 1e-11 and the motion begins as a series, as it does not where a root vanishes; else
+    /// [`Method::RungeKutta8`]. Before these two, and unless
     /// there are events, [`Method::AdaptiveSplitting`] where `emit(splitting)` gave a stiff dilatation a closed form within a
     /// piece and the tolerance lets steps pass over several turns of it. The motion of a body under a
     /// constraint is integrated in charts of its group, see [`Chart`](affine_integrators::lie::Chart), by Runge-Kutta

@@ -27,8 +27,10 @@ pub(super) fn taylor_impl(context: &Context) -> TokenStream {
     let slots = number(recurrence.row.len());
     let mut writer = Writer { context, recurrence, fixed: Vec::new() };
     let (columns, start, ready, next) = (writer.columns(), writer.start(), writer.ready(), writer.next());
+    let roots = recurrence.has_roots();
     let items = quote! {
         type Row<#t: #rt::Scalar> = [#t; #slots];
+        const ROOTS: ::core::primitive::bool = #roots;
         #columns
         #start
         #ready

@@ -1,4 +1,4 @@
-//! Steps whose last two coefficients do not tell what they leave out.
+//! Steps whose last two coefficients do not tell what they leave out, or are lost themselves.
 
 use core::ops::Range;
 
@@ -58,6 +58,36 @@ pub(super) fn hides_terms<S: StateVector<f64>>(
 #[inline(always)]
 fn grow(before: &[f64], last: &[f64], growth: f64) -> bool {
     before.iter().zip(last).fold(false, |grow, (before, last)| grow | (growth * last > *before))
+}
+
+/// What the coefficients are made of grows along the series, or is no number. The branch point of a function within the
+/// equations, the root of `x^2 + 1e-30` at `x = 0`, may be nearer than the end of a step although the motion has none there: its
+/// terms cancel in those of the motion, and these are what rounding leaves. A value is held to its first terms, of even and of odd
+/// orders. Series of lower orders [are not believed](TOLD_BY_TERMS) anyway.
+#[inline(always)]
+pub(super) fn outgrows<R: StateVector<f64>>(rows: &[R], ratio: f64) -> bool {
+    let ([zero, one, two, three, ..], [.., before, last], TOLD_BY_TERMS..) = (rows, rows, rows.len()) else {
+        return false;
+    };
+    let first = [zero, one, two, three].map(|row| row.as_ref());
+    ends_above(first, [before, last].map(|row| row.as_ref()), ratio, rows.len() as f64)
+}
+
+/// A term of the last two orders is larger than those of the first four. A function of numbers alone, as the one below.
+#[inline(never)]
+fn ends_above(
+    [zero, one, two, three]: [&[f64]; 4],
+    [before, last]: [&[f64]; 2],
+    ratio: f64,
+    orders: f64,
+) -> bool {
+    let end = libm::pow(ratio, orders - 2.0);
+    let firsts = zero.iter().zip(one).zip(two).zip(three);
+    firsts.zip(before.iter().zip(last)).fold(false, |above, ((((zero, one), two), three), (before, last))| {
+        let first = zero.abs() + ratio * (one.abs() + ratio * (two.abs() + ratio * three.abs()));
+        let last = end * (before.abs() + ratio * last.abs());
+        above | (last > first) | last.is_nan()
+    })
 }
 
 /// The largest terms are no geometric sequence, and one of those before the last two is above that which ends at the tolerance. A

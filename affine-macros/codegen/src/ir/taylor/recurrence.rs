@@ -162,6 +162,15 @@ impl Recurrence {
             || self.row.iter().flatten().any(|series| series.rate)
     }
 
+    /// Is there a square root, or a size, of what moves?
+    pub fn has_roots(&self) -> bool {
+        let is_root = |rule: &Rule| match rule {
+            Rule::Function { function, .. } => matches!(function, Function::Sqrt | Function::Abs),
+            Rule::Time | Rule::Sum(_) | Rule::Quotient { .. } => false,
+        };
+        self.rules.iter().any(|(_, rule)| is_root(rule))
+    }
+
     /// The number that a constant value is.
     pub fn number(&self, value: Value) -> Rational {
         match &self.program.steps[value] {
