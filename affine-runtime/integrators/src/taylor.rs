@@ -211,8 +211,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         }
         let mut length = self.longest(control);
         if length.is_nan() {
-            self.lower()?;
-            length = self.longest(control);
+            length = self.of_lower_order(control)?;
         }
         let rest = control.t_end - self.t;
         // A rest that is hardly longer is no step of its own.
@@ -279,14 +278,15 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         self.unit != before
     }
 
-    /// Takes the orders up to that after which coefficients, or what they are made of, are no numbers: a branch point that is near
-    /// makes those of high orders larger than any.
+    /// Takes the orders up to that after which coefficients, or what they are made of, are no numbers, and the longest step that they
+    /// allow: a branch point that is near makes those of high orders larger than any.
     #[cold]
-    fn lower(&mut self) -> Result<(), Failure> {
+    #[inline(never)]
+    fn of_lower_order(&mut self, control: &Control) -> Result<f64, Failure> {
         let coefficients = self.coefficients[1..=self.order].iter().zip(&self.rows.0);
         let numbers = coefficients.take_while(|(after, row)| is_finite(*after) && is_finite(*row));
         self.highest = numbers.count();
-        if self.highest < LOWEST_ORDER { Err(Failure::NotFinite) } else { Ok(()) }
+        if self.highest < LOWEST_ORDER { Err(Failure::NotFinite) } else { Ok(self.longest(control)) }
     }
 
     /// The last coefficients may not tell what a step leaves out, which is proved then: so many times less than the defect. Of a

@@ -11,7 +11,7 @@ use std::fs;
 use object::{Object, ObjectSection, ObjectSymbol, Relocation, RelocationFlags, RelocationTarget, elf};
 
 /// What may be called from anywhere, by beginnings of names.
-const RARELY: [&str; 15] = [
+const RARELY: [&str; 16] = [
     // Faults that cannot happen, and moves of numbers.
     "core::panicking::",
     "core::slice::index::",
@@ -26,15 +26,16 @@ const RARELY: [&str; 15] = [
     "affine_integrators::runge_kutta::judged::scaled_error",
     "affine_integrators::taylor::TaylorSteps<S,C,R>::is_in_range::{{closure}}",
     "affine_integrators::taylor::TaylorSteps<S,C,R>::takes_a_unit",
-    // Where a series may have gaps.
+    // Where a series may have gaps, or lacks orders.
     "affine_integrators::taylor::TaylorSteps<S,C,R>::proved",
+    "affine_integrators::taylor::TaylorSteps<S,C,R>::of_lower_order",
     "libm::math::exp::exp",
     "libm::math::log::log",
 ];
 
 /// What may be called from one place of a function. The stages of a step are written out, so that a right-hand side which is not
 /// inlined is called from a dozen.
-const ONCE: [&str; 10] = [
+const ONCE: [&str; 11] = [
     // The choice of the next step.
     "affine_integrators::step_size::Controller::accept",
     "affine_integrators::step_size::Controller::reject",
@@ -48,6 +49,7 @@ const ONCE: [&str; 10] = [
     "affine_runtime::simulate::by_equations::reduced::{{closure}}::{{closure}}",
     // What the last terms of a series say of a step.
     "affine_integrators::taylor::gaps::are_irregular",
+    "affine_integrators::taylor::gaps::ends_above",
     // The length of the first step of a run in lanes.
     "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F,R>::first_step::{{closure}}",
 ];

@@ -69,8 +69,8 @@ pub(super) fn outgrows<R: StateVector<f64>>(rows: &[R], ratio: f64) -> bool {
     let ([zero, one, two, three, ..], [.., before, last], TOLD_BY_TERMS..) = (rows, rows, rows.len()) else {
         return false;
     };
-    let first = [zero, one, two, three].map(|row| row.as_ref());
-    ends_above(first, [before, last].map(|row| row.as_ref()), ratio, rows.len() as f64)
+    let first = [zero.as_ref(), one.as_ref(), two.as_ref(), three.as_ref()];
+    ends_above(first, [before.as_ref(), last.as_ref()], ratio, rows.len() as f64)
 }
 
 /// A term of the last two orders is larger than those of the first four. A function of numbers alone, as the one below.
