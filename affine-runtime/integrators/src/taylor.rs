@@ -294,7 +294,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     #[inline(always)]
     fn doubts(&self, longest: f64, h: f64) -> Option<f64> {
         let (coefficients, rows) = (&self.coefficients[..=self.highest], &self.rows.0[..self.highest]);
-        if self.highest != self.order || outgrows(rows, h.abs() / self.unit) {
+        if self.highest != self.order || R::ROOTS && outgrows(rows, h.abs() / self.unit) {
             return Some(1.0);
         }
         let step = (h, self.unit, self.quotient);
