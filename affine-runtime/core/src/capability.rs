@@ -27,8 +27,8 @@ pub trait Taylor<const N: usize>: Model<N> {
     type Row<T: Scalar>: StateVector<T>;
     /// Coefficients in lanes: states whose rates are the lanes of one convolution go from order to order as vectors.
     type Columns<T: Scalar>: Copy;
-    /// There is a square root, or a size, of what moves: where that falls to zero and rises again, as `norm(x)` through x = 0, the root stays
-    /// positive and its series does not, without any coefficient that tells.
+    /// There is a square root, or a size, of what moves: where that falls to zero and rises again, as `norm(x)` through x = 0, the
+    /// root stays positive and its series does not, without any coefficient that tells.
     const ROOTS: bool;
 
     /// `y_1` from `y_0` at time `t`; fills the row of order 0.

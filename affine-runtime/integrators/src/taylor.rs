@@ -33,8 +33,9 @@ use affine_core::model::{Group, StateVector};
 ///
 /// Series may have longer gaps, `x'' = -x^(k - 1)` from `x = 0` has one of `k` orders: where the last two terms are less than those
 /// before let expect, where they vanish, and below order 8, the step is proved before it is taken, by the defect `P' - f(P)` of
-/// the polynomial at its end, and shortened to what that allows. So is every step of equations with [roots](Series::ROOTS), and one
-/// in which the coefficients of a value within the equations grow: those of the motion are what rounding leaves of them.
+/// the polynomial at its end, and shortened to what that allows. So is every step of equations with [roots](Series::ROOTS). Where the
+/// coefficients of a value within these grow along the series, those of the motion are what rounding leaves of them, and the whole
+/// defect is held against the tolerance.
 ///
 /// What a polynomial leaves out has the same sign in every step of a motion, rounding has not: a tolerance next to the
 /// rounding of a double is met a hundred times over.
@@ -289,8 +290,8 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
         if self.highest < LOWEST_ORDER { Err(Failure::NotFinite) } else { Ok(self.longest(control)) }
     }
 
-    /// The last coefficients may not tell what a step leaves out, which is proved then: so many times less than the defect. Of a
-    /// series that has lost coefficients the first of them may be missing.
+    /// The last coefficients may not tell what a step leaves out, and it has to be proved: by a defect of at most so many tolerances.
+    /// The defect is as many times what is left out as that has orders, unless coefficients are lost, which may be the first ones.
     #[inline(always)]
     fn doubts(&self, longest: f64, h: f64) -> Option<f64> {
         let (coefficients, rows) = (&self.coefficients[..=self.highest], &self.rows.0[..self.highest]);
@@ -312,7 +313,7 @@ impl<S: StateVector<f64>, C, R: Series<S, C>> TaylorSteps<S, C, R> {
     }
 
     /// The end of a step to a time, or of a shorter one, after which the polynomial `P` solves the equations: there, `h |P' - f(P)|`
-    /// is the first term that is left out times its order, `p + 1` or more, and those behind it; `terms` times what is.
+    /// is the first term that is left out times its order, `p + 1` or more, and those behind it. It may be `terms` tolerances.
     #[cold]
     #[inline(never)]
     fn proved(&self, mut end: f64, terms: f64, control: &mut Control) -> f64 {

@@ -6,8 +6,8 @@ use super::layout::carries_dilatation;
 use super::method::Method;
 use super::range::by_halves;
 use super::stiffness::{Trial, stiffness};
-use crate::model::{Description, Model};
-use affine_core::system::{Series, StateVector};
+use crate::model::{Description, Model, StateVector};
+use affine_core::system::Series;
 
 /// [`Method::Automatic`] takes Taylor series from this tolerance down, where they were emitted. At it they take 0.70 to 0.93
 /// of the time of Runge-Kutta steps on the benchmark problems, at ten times as much 0.78 to 1.07, and at equal errors they take

@@ -12,8 +12,9 @@ use crate::state::Phase;
 /// The power of a dissipation function `R` is `-2 R` (Goldstein, *Classical Mechanics*, section 1.5); a potential
 /// that contains the time has the power `dU/dt` at rest. `W` is
 /// integrated with the motion, as one more variable that the steps do not depend on: the balance closes about as well as velocities
-/// are known. Where friction is stiff these are small beside the forces, and known less well than the placement is: the defect can be many
-/// tolerances of a motion that is right, and grows with the time. What an event that changes the point gives or takes is not part of `W`, and stays in the defect.
+/// are known. Where friction is stiff these are small beside the forces, and known less well than the placement is: the defect can
+/// be many tolerances of a motion that is right, and grows with the time. What an event that changes the point gives or takes is
+/// not part of `W`, and stays in the defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PowerBalance {

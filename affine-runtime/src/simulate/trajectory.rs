@@ -90,8 +90,9 @@ pub struct Computation {
     /// Largest `|H(t) - H(t0) - W(t)|` over the outputs and the end, relative to the largest `|T| + |U|` met by then, where that
     /// is more than 1e4 tolerances and more than an error of ten tolerances in the placement is worth, or more than a tenth and more
     /// than a change of the placement by 1e-7 of itself is worth; 0 elsewhere, where the energy is neither conserved nor balanced by a
-    /// work, and where steps are longer than what they follow of a friction. In a balance each step may lose
-    /// that, and what ten tolerances of the body's size within it are worth. An event that changes the point starts it anew.
+    /// work, and where steps are too long to follow a friction. Where the energy is balanced by a work, each step may lose that much,
+    /// and what an error of the momenta is worth that moves the body by ten tolerances of its size within it. An event that
+    /// changes the point starts it anew.
     #[cfg_attr(feature = "serde", serde(with = "crate::inner::number"))]
     pub energy_defect: f64,
     /// How many times the largest `|T| + |U|` met the forces that no potential has would take or give within one of the equal

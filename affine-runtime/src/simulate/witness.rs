@@ -18,8 +18,9 @@ const FAR: f64 = 0.01;
 /// So many tolerances off, the energy is named in what is said of a run.
 const WORTH_NAMING: f64 = 1e4;
 /// No energy ends a run that an error of so many tolerances in the placement is worth: the energies of tiny vibrations, of
-/// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run. Of a work each
-/// step may lose that: it is integrated beside the motion, and goes on growing where the energy does not.
+/// stiff ones that steps pass over, and of rounding. Nor is it named, unless so much is off that would end the run. Where the energy
+/// is balanced by a work, each step may lose that: the work is integrated beside the motion, and goes on growing where the energy
+/// does not.
 const RESOLVED: f64 = 10.0;
 /// Steps follow friction that takes velocities away no more than so often, by powers of e, within one of them, as explicit ones do.
 /// What it takes within longer ones is known to the tolerance of the placement, beside which the energy of slow bodies is small.
@@ -148,8 +149,8 @@ impl Witness {
         }
     }
 
-    /// What the energy changes by where the momenta are off by what moves the body by a part of its size within a step, in a motion
-    /// that forces begin: within the step in which they set in the body may have hardly any energy else.
+    /// What the energy changes by where the momenta are off by what moves the body by a part of its size within a step. Where forces
+    /// set in on a body at rest, it has hardly any other energy at first.
     fn worth_of_momenta<const N: usize, P: Phase<N>>(&self, point: &P, reach: f64) -> f64 {
         let (placed, deformed) = (norm(point.x().as_slice()), norm(point.phi().as_slice()));
         let momenta =

@@ -35,7 +35,7 @@ const RARELY: [&str; 16] = [
 
 /// What may be called from one place of a function. The stages of a step are written out, so that a right-hand side which is not
 /// inlined is called from a dozen.
-const ONCE: [&str; 11] = [
+const ONCE: [&str; 10] = [
     // The choice of the next step.
     "affine_integrators::step_size::Controller::accept",
     "affine_integrators::step_size::Controller::reject",
@@ -49,7 +49,6 @@ const ONCE: [&str; 11] = [
     "affine_runtime::simulate::by_equations::reduced::{{closure}}::{{closure}}",
     // What the last terms of a series say of a step.
     "affine_integrators::taylor::gaps::are_irregular",
-    "affine_integrators::taylor::gaps::ends_above",
     // The length of the first step of a run in lanes.
     "affine_integrators::runge_kutta::start::in_lanes::Beginning<T,S,F,R>::first_step::{{closure}}",
 ];

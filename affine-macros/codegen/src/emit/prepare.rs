@@ -50,6 +50,7 @@ pub(super) fn prepared_type(context: &Context) -> TokenStream {
                 #(#fields)*
                 model: ::core::marker::PhantomData<fn() -> #model #types>,
             }
+            /// Where the fields that it holds can be copied.
             impl #parameters ::core::marker::Copy for #prepared #types
             where
                 #(#given,)*

@@ -84,7 +84,8 @@ impl Slope {
     }
 
     /// The stiffest slope with a closed form among the terms of a polynomial in `q`, `D`, `1/D` and anything else, as far as numbers
-    /// tell: one whose stiffness has fields in it is taken before them. Only what binds the dilatation is taken: what drives it apart is not stiff, and would leave in a finite time without the rest.
+    /// tell: one whose stiffness has fields in it is taken before them. Only what binds the dilatation is taken: what drives it apart
+    /// is not stiff, and would leave in a finite time without the rest.
     pub(super) fn stiffest_in(arena: &mut Arena, slope: &Polynomial) -> Option<Self> {
         let powers = powers(arena, slope)?;
         let mut found: Option<(_, Self)> = None;

@@ -41,9 +41,10 @@ const FIRST: f64 = 1e3;
 /// on twice that difference is: a tolerance next to rounding is met as far as rounding allows, and changes nothing from
 /// 2e-14 on.
 ///
-/// A force that sets in behind the last kick of a step, as a contact may, is felt neither by a step nor by its halves. Whole steps begin
-/// and end with the piece that is within their halves, so that one of the two looks at the ends. With `[B, [B, [B, A]]] = 0`, where all
-/// forces are those of a potential of the placement, orders 4 and 6 have compositions of their own for halves and whole steps alike.
+/// A force that sets in behind the last kick of a step and of its halves, as a contact may, would be felt by neither. Whole steps
+/// begin and end with the piece that is within their halves, so that one of the two looks at the ends. With
+/// `[B, [B, [B, A]]] = 0`, where all forces are those of a potential of the placement, whole steps of orders 4 and 6 are
+/// like their halves: by order 6, and by order 4 beside a stiff dilatation, such a force may be missed.
 ///
 /// Cost: three steps of the composition for a step, of which [`Statistics`](crate::Statistics) count the flows of the last piece; at the start
 /// one evaluation for each component of a momentum, and a few more.

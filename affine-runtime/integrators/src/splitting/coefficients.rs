@@ -89,8 +89,8 @@ pub struct Sweeps {
     order: usize,
     /// Do sweeps begin with the last piece?
     from_last: bool,
-    /// Is it of its order for any pieces?
-    is_general: bool,
+    /// May the pieces change places, at about the same errors?
+    may_swap: bool,
     count: usize,
     weights: [f64; MOST],
 }
@@ -125,11 +125,11 @@ impl Sweeps {
         for (pair, weight) in weights.chunks_exact_mut(2).zip(composition.weights()) {
             pair.fill(0.5 * weight);
         }
-        Self { order, from_last: false, is_general: true, count: 2 * composition.steps(), weights }
+        Self { order, from_last: false, may_swap: true, count: 2 * composition.steps(), weights }
     }
 
     /// From `c_1, ..., c_(s-1)` of a palindrome of `2s + 1` flows; those of each piece sum to 1.
-    fn published((order, is_general): (usize, bool), from_last: bool, first: &[f64]) -> Self {
+    fn published((order, may_swap): (usize, bool), from_last: bool, first: &[f64]) -> Self {
         let sweeps = first.len() + 1;
         let sum = |parity: usize| first.iter().skip(parity).step_by(2).sum::<f64>();
         // The last two of the half: the one beside the middle, and the middle one, which counts once.
@@ -142,14 +142,14 @@ impl Sweeps {
             weights[j] = before;
             weights[2 * sweeps - 1 - j] = before;
         }
-        Self { order, from_last, is_general, count: 2 * sweeps, weights }
+        Self { order, from_last, may_swap, count: 2 * sweeps, weights }
     }
 
-    /// The composition that begins with the last piece in place of the first one, or the other way round, if it is of the same order: where
-    /// no commutator has to vanish.
+    /// The composition that begins with the last piece in place of the first one, or the other way round. The same one, where its
+    /// conditions tell the pieces apart.
     #[must_use]
     pub fn from_the_other_end(&self) -> Self {
-        Self { from_last: self.from_last != self.is_general, ..*self }
+        Self { from_last: self.from_last != self.may_swap, ..*self }
     }
 
     /// Order of the method.
