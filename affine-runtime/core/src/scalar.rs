@@ -60,7 +60,6 @@ pub trait Scalar:
     /// `self * other`, and zero where this number is, whatever the other is, in each lane alone: what does not change changes
     /// nothing, be its derivative infinite.
     #[inline(always)]
-    #[must_use]
     fn times_any(self, other: Self) -> Self {
         if self == Self::zero() { self } else { self * other }
     }
