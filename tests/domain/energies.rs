@@ -134,31 +134,45 @@ fn a_change_is_no_loss() {
     assert!(run.computation().energy_defect < 1e-6);
 }
 
-/// A force sets in at a kink, `f = max(0, t - t_1)^k`, on a body at rest: within the step there is hardly any energy yet, and what is
-/// lost of that is no more than the tolerance lets a momentum lose.
+/// A force `max(0, t - t_1)^k` along the first axis.
+#[derive(Clone, Copy)]
+struct Onset {
+    k: i32,
+    t_1: f64,
+}
+
+impl Force<2> for Onset {
+    type Form = Translation;
+
+    fn force<T: Scalar>(&self, motion: &Motion<2, T>) -> Vector<2, T> {
+        let since = (motion.t - T::constant(self.t_1, 0.0)).max(T::zero());
+        Vector::<2, T>::new((0..self.k).fold(T::one(), |power, _| power * since), T::zero())
+    }
+}
+
+/// A force sets in at a kink on a body at rest: within the step there is hardly any energy yet, and what is lost of that is no more
+/// than the tolerance lets a momentum lose.
 #[test]
 fn a_force_that_sets_in_is_no_loss() {
     #[affine_model(
         dim = 2,
         kinetic(dalembert = 1, space_translation = 1),
-        potential = orthogonality(1) - (ramp*(abs(t - t_1) + t - t_1)/2 + square*((abs(t - t_1) + t - t_1)/2)^2)*x[1]
+        potential = orthogonality(1),
+        forces = custom(onset, translation)
     )]
     struct Pushed {
-        ramp: f64,
-        square: f64,
-        t_1: f64,
+        onset: Onset,
     }
     for t_1 in [0.123456, 0.5, 0.51234, 1.7] {
-        for (ramp, square) in [(1.0, 0.0), (0.0, 1.0)] {
-            let pushed = Pushed { ramp, square, t_1 }.prepare().unwrap();
-            let (zero, phi, still) = (Vector::<2>::zeros(), Matrix::identity(), Matrix::zeros());
-            let start = pushed.at_velocity(zero, phi, zero, still).unwrap();
-            let late = 4.0 - t_1;
-            let exact = ramp * late.powi(2) / 2.0 + square * late.powi(3) / 3.0;
+        for k in [1, 2, 3] {
+            let pushed = Pushed { onset: Onset { k, t_1 } }.prepare().unwrap();
+            let (x, phi, still) = (Vector::<2>::new(1.0, 0.0), Matrix::identity(), Matrix::zeros());
+            let start = pushed.at_velocity(x, phi, Vector::zeros(), still).unwrap();
+            let exact = (4.0 - t_1).powi(k + 1) / f64::from(k + 1);
             for method in [Method::Automatic, Method::RungeKutta5] {
                 for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
                     let run = Simulation::new(&pushed, start).until(4.0).tolerance(tolerance).method(method);
-                    let label = format!("{ramp} {square} from {t_1}, {method:?} at {tolerance:e}");
+                    let label = format!("power {k} from {t_1}, {method:?} at {tolerance:e}");
                     let run = run.run().unwrap_or_else(|halt| panic!("{label}: {halt}"));
                     let error = (run.end().1.p()[0] - exact).abs() / exact;
                     assert!(error < 100.0 * tolerance, "{label}: {error:e}");
